@@ -198,7 +198,7 @@ void addArcosOptions(CLI::App& command, ServeArguments& arguments) {
                 ->type_name("TYPE[:NUMBER]"),
             arcos);
   dependsOn(command.add_flag("--arcos-all", arguments.arcos_all,
-                             "serve robots with a controller in the world to ARCOS programs, too"),
+                             "serve robots with a controller, in the world or by --controller, to ARCOS programs, too"),
             arcos);
   dependsOn(command.add_flag("--arcos-unprotected", arguments.arcos_unprotected,
                              "allow ARCOS programs from other machines, without passwords or encryption"),

@@ -93,6 +93,22 @@ TEST(ArcosBoard, AcceptsAnotherSync0AtAnyPointOfTheHandshake) {
   }
 }
 
+TEST(ArcosBoard, IsClaimedAtTheEndOfTheHandshakeOnly) {
+  SimulatedArcosRobot robot("p3dx");
+  int claims = 0;
+  ArcosSession session(
+      [&]() -> std::optional<ArcosSession::Robot> {
+        ++claims;
+        return std::nullopt;
+      },
+      robot.now());
+  session.receive(encodeCommand(command::sync0) + encodeCommand(command::sync1), robot.now());
+  EXPECT_EQ(claims, 0);
+  EXPECT_EQ(session.receive(encodeCommand(command::sync2) + encodeCommand(command::open, 1), robot.now()), "");
+  EXPECT_EQ(claims, 1);
+  EXPECT_EQ(session.endReason(), "no robot is free");
+}
+
 TEST(ArcosBoard, ReportsAStandingRobotWithMotorsAndSonarOn) {
   BoardProgram program;
   program.steps(1);

@@ -153,6 +153,21 @@ TEST(ArcosLog, OfAnotherKindIsRefusedWithoutReadingAllOfIt) {
   EXPECT_NE(first.find("/usr/bin/env:1: is no log of --arcos-log"), std::string::npos) << first;
 }
 
+TEST(ArcosPrograms, DriveRobotsInPlaceOfAControllerOfTheRunWithArcosAll) {
+  const std::vector<std::string> serve{"serve",   "worlds/open_house.xml", "--listen",     "127.0.0.1:0",
+                                       "--arcos", "127.0.0.1:0",           "--controller", "wander"};
+  StartedProgram none(serve);
+  none.waitForError("no robots for ARCOS programs: --controller drives them all; leave it out, or add --arcos-all");
+  auto with_all = serve;
+  with_all.emplace_back("--arcos-all");
+  StartedProgram all(with_all);
+  all.waitForError("for ARCOS programs on 127.0.0.1:");
+  const std::string log = all.error(), says = "for ARCOS programs on ";
+  const auto at = log.find(says) + says.size();
+  StartedProgram robot({"robot", "--arcos", "tcp:" + log.substr(at, log.find('\n', at) - at), "--controller", "still"});
+  robot.waitForError("connected to MobileSim");
+}
+
 TEST(ArcosPrograms, ExplainWrongArguments) {
   const auto error_of = [](const std::string& arguments) { return runProgram(arguments).err; };
   const auto contains = [](const std::string& text, const std::string& part) {

@@ -17,6 +17,7 @@
 #include "base/portable_pose.h"
 #include "environment/testing/small_world.h"
 #include "environment/world_changes.h"
+#include "net/testing/address_flood.h"
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
 #include "robots/start_places.h"
@@ -216,7 +217,7 @@ TEST(ArcosServer, LosesOnlyTheConnectionsOfMisbehavingPrograms) {
 }
 
 TEST(ArcosServer, HandlesABoundedNumberOfConnectionsInOnePoll) {
-  constexpr std::size_t kFlood = 100, kMaxEvents = 16;
+  constexpr std::size_t kFlood = 400, kMaxEvents = 64;
   ServedRobots served(1);
   TcpProgram program(served, served.server->ports()[0]);
   program.open();
@@ -229,6 +230,38 @@ TEST(ArcosServer, HandlesABoundedNumberOfConnectionsInOnePoll) {
   EXPECT_LE(std::count_if(flood.begin(), flood.end(), [](const auto& one) { return one->hasEnded(); }), kMaxEvents);
   for (const auto& one : flood) EXPECT_TRUE(one->isClosed());
   EXPECT_NE(program.step().flags, 0);
+}
+
+TEST(ArcosServer, GivesARobotToTheFirstProgramThatCompletesTheHandshake) {
+  ServedRobots served(1);
+  TcpProgram silent(served, served.server->ports()[0]), incomplete(served, served.server->ports()[0]);
+  incomplete.send(encodeCommand(command::sync0));
+  EXPECT_EQ(incomplete.next().id, command::sync0);
+  EXPECT_EQ(served.server->clients(), 0u);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  EXPECT_EQ(served.server->clients(), 1u);
+  incomplete.send(encodeCommand(command::sync1) + encodeCommand(command::sync2) + encodeCommand(command::open, 1) +
+                  encodeCommand(command::vel, 300));
+  EXPECT_EQ(incomplete.next().id, command::sync1);
+  EXPECT_TRUE(incomplete.isClosed());
+  EXPECT_NE(served.log.find("robot P1 has a program already"), std::string::npos) << served.log;
+  EXPECT_EQ(program.step().speed_left, 0) << "its commands had no effect";
+}
+
+TEST(ArcosServer, ServesProgramsDuringAFloodFrom1000Addresses) {
+  ServedRobots served(2);
+  TcpProgram before(served, served.server->ports()[0]);
+  before.open();
+  const AddressFlood flood(served.server->ports()[1], "\xfa\xfb\xff");
+  flood.waitForAll();
+  TcpProgram during(served, served.server->ports()[1]);
+  during.open();
+  during.send(encodeCommand(command::vel, 300));
+  before.send(encodeCommand(command::vel, 300));
+  EXPECT_EQ(during.step().speed_left, 30);
+  EXPECT_EQ(before.step().speed_left, 30) << "of the same step";
+  EXPECT_EQ(served.server->clients(), 2u);
 }
 
 TEST(ArcosServer, SendsSipsOfAPausedRunToo) {
@@ -308,8 +341,9 @@ TEST(ArcosServer, NamesAPortThatIsInUse) {
     ArcosServer(options, *served.environment, {0});
     ADD_FAILURE() << "no error";
   } catch (const std::runtime_error& error) {
-    EXPECT_EQ(std::string(error.what()), "cannot serve ARCOS programs at " + options.listen +
-                                             ": Address already in use; choose another port with --arcos");
+    EXPECT_EQ(std::string(error.what()), "cannot listen on " + options.listen +
+                                             ": is another program using the port? Name another with --arcos (robosim "
+                                             "arcos: -p), or :0 for any");
   }
 }
 

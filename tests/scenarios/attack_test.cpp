@@ -1,10 +1,13 @@
 // Attacks on a running server over loopback: the run continues, and the server answers afterwards. ROBOSIM_VERIFY=1
 // selects long variants.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <future>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -50,6 +53,50 @@ TEST(Attack, AnswersAfterDescriptorExhaustion) {
   // Closed connections may still occupy descriptors for a moment.
   int exit_code = exitCodeOfStatus(address);
   for (int i = 0; i < 100 && exit_code != 0; ++i) exit_code = exitCodeOfStatus(address);
+  EXPECT_EQ(exit_code, 0) << server.error();
+}
+
+std::set<int> descriptorsOf(pid_t process) {
+  std::set<int> descriptors;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/fd")) {
+    descriptors.insert(std::stoi(entry.path().filename().string()));
+  }
+  return descriptors;
+}
+
+TEST(Attack, RelayedConnectionsLeaveReservedDescriptorsFree) {
+  constexpr int kConnections = 100, kDescriptors = 200, kReserved = 32;
+  const auto folder = certificates();
+  const std::string tls = "--tls-cert " + quoted(folder / "cert.pem") + " --tls-key " + quoted(folder / "key.pem");
+  // With --health every connection with TLS is relayed, which takes three descriptors.
+  StartedProgram server("/bin/sh", {"-c", "ulimit -n " + std::to_string(kDescriptors) +
+                                              "; exec '" ROBOSIM_PROGRAM
+                                              "' serve worlds/small_maze.xml --listen :0 --paused --controller wander "
+                                              "--health " +
+                                              tls});
+  server.waitForError("listening on 127.0.0.1:");
+  const std::set<int> others = descriptorsOf(server.process());  // may have been inherited
+  const std::string says = server.error();
+  const auto at = says.find("127.0.0.1:");
+  const std::string address = says.substr(at, says.find('\n', at) - at);
+  {
+    std::vector<std::unique_ptr<Http2Peer>> peers;
+    try {
+      for (int i = 0; i < kConnections; ++i) {
+        peers.push_back(std::make_unique<Http2Peer>(address, Http2Peer::Security::tls));
+        if (peers.back()->sendPreface()) peers.back()->send(peers.back()->headersOf("/grpc.health.v1.Health/Check"));
+      }
+    } catch (const std::runtime_error&) {  // refused before the handshake
+    }
+    server.waitForError("refused: the limit of 200 descriptors is reached");
+    for (const int descriptor : descriptorsOf(server.process())) {
+      EXPECT_TRUE(descriptor < kDescriptors - kReserved || others.contains(descriptor)) << descriptor;
+    }
+  }
+  int exit_code = exitCodeOfStatus(address, "--tls-ca " + quoted(folder / "cert.pem"));
+  for (int i = 0; i < 100 && exit_code != 0; ++i) {
+    exit_code = exitCodeOfStatus(address, "--tls-ca " + quoted(folder / "cert.pem"));
+  }
   EXPECT_EQ(exit_code, 0) << server.error();
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <ctime>
 #include <stdexcept>
 
 #include <arpa/inet.h>
@@ -32,6 +34,26 @@ std::string callOf(const std::string& path) {
   return field(":method", "POST") + field(":scheme", "http") + field(":path", path) + field(":authority", "localhost") +
          field("te", "trailers") + field("content-type", "application/grpc");
 }
+
+/// Discards SIGPIPE of this thread for its lifetime: OpenSSL writes without MSG_NOSIGNAL.
+class WithoutSigpipe {
+ public:
+  WithoutSigpipe() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~WithoutSigpipe() {
+    const timespec at_once{};
+    sigtimedwait(&pipe_, nullptr, &at_once);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  WithoutSigpipe(const WithoutSigpipe&) = delete;
+  WithoutSigpipe& operator=(const WithoutSigpipe&) = delete;
+
+ private:
+  sigset_t pipe_, before_;
+};
 
 int connectTo(const std::string& address) {
   const auto colon = address.rfind(':');
@@ -79,12 +101,16 @@ struct Http2Peer::Wire {
     const std::array<unsigned char, 3> alpn{2, 'h', '2'};
     SSL_set_alpn_protos(ssl, alpn.data(), alpn.size());
     SSL_set_fd(ssl, socket);
+    const WithoutSigpipe closed_meanwhile;
     if (SSL_connect(ssl) != 1) throw std::runtime_error("no TLS with the server");
   }
 
   /// @return bytes written, 0 if it would block, below 0 for a closed connection
   ssize_t write(std::string_view bytes) {
-    if (ssl) return judge(SSL_write(ssl, bytes.data(), static_cast<int>(bytes.size())));
+    if (ssl) {
+      const WithoutSigpipe closed_meanwhile;
+      return judge(SSL_write(ssl, bytes.data(), static_cast<int>(bytes.size())));
+    }
     const ssize_t done = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     return done >= 0 ? done : errno == EAGAIN ? 0 : -1;
   }

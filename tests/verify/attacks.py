@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Floods `robosim serve` from one and from many addresses: prints the mean pace of a run during each attack relative to
-that between the attacks, the greatest memory of the server, whether `control pause` succeeds, and evicted robots.
+"""Floods `robosim serve` or the console from one and from many addresses: prints the mean pace of a run during each
+attack relative to that between the attacks, the greatest memory of the server, whether `control pause` succeeds, and
+evicted robots.
 
-usage: attacks.py ROBOSIM [--seconds S] [--rounds N] [--addresses N] [--tls FOLDER] [--tokens] [--ipv6 PREFIX] [--arcos]
-                  [--kinds KIND,…]
+usage: attacks.py ROBOSIM [--seconds S] [--rounds N] [--addresses N] [--tls FOLDER] [--tokens] [--ipv6 PREFIX]
+                  [--arcos | --console] [--kinds KIND,…]
 Phases of S seconds with an attack and without one alternate, because other programs use the processor as well. FOLDER
 contains cert.pem and key.pem for 127.0.0.1. PREFIX is an IPv6 network of 64 bits all of whose addresses are local, such
 as fd00:1:1:1: after `ip -6 route add local fd00:1:1:1::/64 dev lo`, best in a network namespace of its own. --arcos
-floods the ARCOS port of a run in real time. Exits with 1 if a robot is evicted, a pause fails, the mean pace is below
-half, during an attack or from one second after it on, or the server needs more than 300 MiB.
+floods the ARCOS port of a run in real time; --console floods the port of `robosim remote`, where the pace is that of
+answers to a page's pings. For both, the longest time is printed that a client took which came during the attack: from
+its connection to an ARCOS session, or to the page. Exits with 1 if a robot is evicted, a pause or such a client fails,
+the mean pace is below half, during an attack or from one second after it on, or the server needs more than 300 MiB.
 """
 import argparse
 import multiprocessing
@@ -52,10 +55,13 @@ KINDS = {  # what is sent once, what is repeated, whether answers are read
     'GOAWAY': (b'', frame(7, 0, 0, bytes(8)) * 1000, True),
 }
 BUSY = 'none; a busy process instead'  # what the attackers cost as a program beside the server
-ARCOS = 'reconnecting FA FB FF'
+ARCOS = {'reconnecting FA FB FF': b'\xfa\xfb\xff', 'silent': None}
+CONSOLE = {'reconnecting with half a request': b'GET / HTTP/1.1\r\n', 'silent': None,
+           'reconnecting for the page': b'GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n'}
 ARCOS_PORT = r'for ARCOS programs on (\S+)'
 IPV6_FREEBIND = 78
 MAX_MIB = 300
+NEWCOMER_SECONDS = 10
 
 
 class Attacker(multiprocessing.Process):
@@ -67,7 +73,9 @@ class Attacker(multiprocessing.Process):
         self.host, self.port = host.strip('[]'), int(self.port)
         self.is_busy = kind == BUSY
         self.kind = KINDS.get(kind, (b'', b'', True))
-        self.opening = b'\xfa\xfb\xff' if kind == ARCOS else PREFACE + self.kind[0]
+        openings = {**ARCOS, **CONSOLE}
+        self.opening = openings[kind] if kind in openings else PREFACE + self.kind[0]
+        self.protocol = 'http/1.1' if kind in CONSOLE else 'h2'
         self.tls, self.addresses = tls, addresses
 
     def socket_from(self, address):
@@ -89,7 +97,7 @@ class Attacker(multiprocessing.Process):
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         context.check_hostname = False
         context.verify_mode = ssl.CERT_NONE
-        context.set_alpn_protocols(['h2'])
+        context.set_alpn_protocols([self.protocol])
         chunk = 16384
         while True:
             again, waiting = waiting[:64], waiting[64:]
@@ -102,7 +110,10 @@ class Attacker(multiprocessing.Process):
                     waiting.append(address)
                     continue
                 epoll.register(s.fileno(), select.EPOLLIN | select.EPOLLOUT)
-                open_ones[s.fileno()] = [s, address, memoryview(self.opening), 0, not self.tls]
+                is_silent = self.opening is None
+                open_ones[s.fileno()] = [s, address, memoryview(self.opening or b''), 0, not self.tls or is_silent]
+                if is_silent:
+                    epoll.modify(s.fileno(), select.EPOLLIN)
             for number, _ in epoll.poll(0.01, 256):
                 entry = open_ones.get(number)
                 if not entry:
@@ -118,6 +129,8 @@ class Attacker(multiprocessing.Process):
                                 raise ConnectionError
                         except (BlockingIOError, ssl.SSLWantReadError):
                             pass
+                    if self.opening is None:
+                        continue
                     if entry[3] >= len(entry[2]):
                         if not self.kind[1]:
                             raise ConnectionError
@@ -207,6 +220,23 @@ class Run:
         return subprocess.run([self.robosim, 'control', self.address, command, *self.client, *self.tokens['operator']],
                               capture_output=True, text=True, timeout=60)
 
+    def newcomer(self):
+        """@return the seconds until a program that connects to the attacked ARCOS port has a session"""
+        if self.robots:
+            return 0
+        begin = time.monotonic()
+        while time.monotonic() - begin < NEWCOMER_SECONDS:
+            try:
+                with socket.create_connection(self.attacked.rsplit(':', 1), timeout=NEWCOMER_SECONDS) as s:
+                    for sync in (0, 1, 2):
+                        s.sendall(bytes([0xfa, 0xfb, 3, sync, 0, sync]))
+                        if not s.recv(4096):
+                            raise ConnectionError
+                return time.monotonic() - begin
+            except OSError:
+                time.sleep(0.01)
+        return None
+
     def evictions(self):
         return self.log_path.read_text().count('robots Pioneer1, Scout1') - 1 if self.robots else 0
 
@@ -214,6 +244,95 @@ class Run:
         for process in filter(None, (self.watch, self.robots, self.server)):
             process.terminate()
             process.wait()
+
+
+class ConsoleRun:
+    """A console, and a page that sends pings one after the other. The robots are not there."""
+
+    def __init__(self, robosim, tls, folder):
+        self.log_path = folder / 'log'
+        arguments = ['remote', 'worlds/teams/small_maze.xml', '--listen', '127.0.0.1:0']
+        if tls:
+            arguments += ['--tls-cert', f'{tls}/cert.pem', '--tls-key', f'{tls}/key.pem']
+        self.context = ssl._create_unverified_context() if tls else None  # noqa: SLF001
+        self.server = subprocess.Popen([robosim, *arguments], stdout=subprocess.DEVNULL, stderr=self.log_path.open('w'))
+        while not (found := re.search(r'the console is at https?://([^/]+)/', self.log_path.read_text())):
+            if self.server.poll() is not None:
+                raise RuntimeError(self.log_path.read_text())
+            time.sleep(0.02)
+        self.attacked = found.group(1)
+        self.answers = self.losses = 0
+        self.is_over = False
+        threading.Thread(target=self.keep_page, daemon=True).start()
+        while self.answers == 0:
+            time.sleep(0.02)
+
+    def connection(self):
+        s = socket.create_connection(self.attacked.rsplit(':', 1), timeout=NEWCOMER_SECONDS)
+        return self.context.wrap_socket(s) if self.context else s
+
+    @staticmethod
+    def text_frame(text):
+        return bytes([0x81, 0x80 | len(text), 0, 0, 0, 0]) + text.encode()  # the mask is 0
+
+    def keep_page(self):
+        """Keeps a page open, and counts how often it is lost."""
+        while not self.is_over:
+            try:
+                self.ping()
+            except OSError:
+                if not self.is_over:
+                    self.losses += 1
+                    time.sleep(0.1)
+
+    def ping(self):
+        scheme = 'https' if self.context else 'http'
+        page = self.connection()
+        page.sendall((f'GET / HTTP/1.1\r\nHost: {self.attacked}\r\nOrigin: {scheme}://{self.attacked}\r\n'
+                      'Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n'
+                      'Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n'
+                      'Sec-WebSocket-Protocol: robosim.remote.1\r\n\r\n').encode())
+        page.sendall(self.text_frame('{"type":"hello","protocol":1,"name":"Page"}'))
+        ping = '{"type":"ping","number":1}'
+        page.sendall(self.text_frame(ping))
+        while received := page.recv(65536):
+            if count := received.count(b'"pong"'):
+                self.answers += count
+                time.sleep(0.001)
+                page.sendall(self.text_frame(ping))
+        raise ConnectionError('the page has been disconnected')
+
+    def wait(self, seconds):
+        answers, begin = self.answers, time.monotonic()
+        time.sleep(seconds)
+        return self.answers - answers, time.monotonic() - begin
+
+    def control(self, _):
+        return subprocess.CompletedProcess([], self.server.poll() or 0)
+
+    def newcomer(self):
+        """@return the seconds until the page is loaded over a new connection"""
+        begin = time.monotonic()
+        while time.monotonic() - begin < NEWCOMER_SECONDS:
+            try:
+                with self.connection() as s:
+                    s.sendall(b'GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n')
+                    received = b''
+                    while piece := s.recv(65536):
+                        received += piece
+                    if received.startswith(b'HTTP/1.1 200') and received.rstrip().endswith(b'</html>'):
+                        return time.monotonic() - begin
+            except OSError:
+                time.sleep(0.01)
+        return None
+
+    def evictions(self):
+        return self.losses
+
+    def end(self):
+        self.is_over = True
+        self.server.terminate()
+        self.server.wait()
 
 
 class Pace:
@@ -233,13 +352,14 @@ class Pace:
 def measure(run, kind, addresses, options):
     """Prints a line of the table. @return whether the run has withstood the attack"""
     alone, attacked, recovered, rest = Pace(), Pace(), Pace(), Pace()
-    pauses, failures = 0, []
+    pauses, failures, newcomers = 0, [], []
     for _ in range(options.rounds):
         alone.add(*run.wait(options.seconds / 2))
         attacker = Attacker(run.attacked, kind, addresses, options.tls)
         attacker.start()
         try:
             attacked.add(*run.wait(options.seconds))
+            newcomers += [run.newcomer() for _ in range(3)]
             paused = run.control('pause')
             pauses += paused.returncode == 0
             failures += [paused.stderr.strip()] if paused.returncode else []
@@ -252,11 +372,15 @@ def measure(run, kind, addresses, options):
     rest.add(alone.steps + recovered.steps, alone.seconds + recovered.seconds)
     mib = max_resident_mib(run.server.pid)
     count = len(addresses) if kind != BUSY else 0
+    served = [seconds for seconds in newcomers if seconds is not None]
+    is_served = len(served) == len(newcomers)
+    newcomer = f'{max(served):.2f} s' if is_served else f'{len(served)} of {len(newcomers)} served'
     print(f'| {kind} | {count} | {float(attacked) / float(rest):.2f} of {float(rest):.0f}/s '
           f'| {float(recovered) / float(alone):.2f} '
-          f'| {mib:.0f} MiB | {pauses} of {options.rounds} {"; ".join(failures)}| {run.evictions()} |', flush=True)
+          f'| {mib:.0f} MiB | {pauses} of {options.rounds} {"; ".join(failures)}| {run.evictions()} '
+          f'| {newcomer} |', flush=True)
     return (float(attacked) >= float(rest) / 2 and float(recovered) >= float(alone) / 2 and pauses == options.rounds and
-            run.evictions() == 0 and mib <= MAX_MIB)
+            run.evictions() == 0 and mib <= MAX_MIB and is_served)
 
 
 def main():
@@ -269,18 +393,25 @@ def main():
     options.add_argument('--tokens', action='store_true')
     options.add_argument('--ipv6')
     options.add_argument('--arcos', action='store_true')
+    options.add_argument('--console', action='store_true')
     options.add_argument('--kinds', default=','.join(['busy', *(k for k in KINDS if ',' not in k), 'unread']))
     options = options.parse_args()
     names = {'busy': BUSY, 'unread': UNREAD}
-    kinds = [BUSY, ARCOS] if options.arcos else [names.get(k, k) for k in options.kinds.split(',')]
+    kinds = [names.get(k, k) for k in options.kinds.split(',')]
+    if options.arcos or options.console:
+        kinds = [BUSY, *(ARCOS if options.arcos else CONSOLE)]
     is_good = True
-    print('| attack | addresses | pace | recovered | memory | pause | evictions |\n|---|---|---|---|---|---|---|')
+    print('| attack | addresses | pace | recovered | memory | pause | evictions | new client |\n' + '|---' * 8 + '|')
     for kind in kinds:
         for count in sorted({1, options.addresses} if kind != BUSY else {1}):
             addresses = [f'{options.ipv6}:{i + 1:x}' if options.ipv6 else f'127.0.{i // 250}.{i % 250 + 1}'
                          for i in range(count)]
             with tempfile.TemporaryDirectory() as folder:
-                run = Run(options.robosim, options.tls, options.tokens, options.ipv6, options.arcos, pathlib.Path(folder))
+                if options.console:
+                    run = ConsoleRun(options.robosim, options.tls, pathlib.Path(folder))
+                else:
+                    run = Run(options.robosim, options.tls, options.tokens, options.ipv6, options.arcos,
+                              pathlib.Path(folder))
                 try:
                     is_good = measure(run, kind, addresses, options) and is_good
                 finally:

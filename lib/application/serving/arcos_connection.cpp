@@ -1,37 +1,41 @@
 #include "serving/arcos_connection.h"
 
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/error.hpp>
+#include <sys/socket.h>
+#include <unistd.h>
 
 namespace robosim {
 
-namespace asio = boost::asio;
-using asio::ip::tcp;
-
-ArcosConnection::ArcosConnection(tcp::socket socket, std::string peer, ArcosBoard& board, Simulator& simulator)
-    : socket_(std::move(socket)), peer_(std::move(peer)), session_(board, simulator, ArcosSession::Clock::now()) {
-  boost::system::error_code ignored;
-  socket_.non_blocking(true, ignored);
-  // ARIA gives up on a packet whose bytes stop arriving for 100 ms.
-  socket_.set_option(tcp::no_delay(true), ignored);
-  socket_.set_option(asio::socket_base::keep_alive(true), ignored);
+std::string toHostAndPort(const PeerAddress& peer) {
+  const std::string host = peer.is_ipv6 ? "[" + peer.host + "]" : peer.host;
+  return host + ":" + std::to_string(peer.port);
 }
 
-void ArcosConnection::start() { receive(); }
+ArcosConnection::ArcosConnection(const AcceptedConnection& accepted, ArcosSession::Claim claim)
+    : socket_(accepted.socket),
+      peer_(toHostAndPort(accepted.peer)),
+      session_(std::move(claim), ArcosSession::Clock::now()) {
+  const int on = 1;
+  setsockopt(socket_, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+}
 
-void ArcosConnection::receive() {
-  socket_.async_read_some(
-      asio::buffer(received_), [self = shared_from_this()](const boost::system::error_code& error, std::size_t size) {
-        if (!self->socket_.is_open()) return;
-        if (error) {
-          self->lost_ = error == asio::error::eof ? "it has closed the connection" : error.message();
-          return;
-        }
-        self->send(self->session_.receive({self->received_.data(), size}, ArcosSession::Clock::now()));
-        if (self->endReason().empty()) self->receive();
-      });
+ArcosConnection::~ArcosConnection() { close(socket_); }
+
+bool ArcosConnection::receive(ArcosSession::Clock::time_point now) {
+  if (!endReason().empty()) return false;
+  std::array<char, 4096> received;
+  const ssize_t size = recv(socket_, received.data(), received.size(), 0);
+  if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;
+  if (size <= 0) {
+    lost_ = size == 0 ? "it has closed the connection" : std::strerror(errno);
+    return false;
+  }
+  send(session_.receive({received.data(), static_cast<std::size_t>(size)}, now));
+  return static_cast<std::size_t>(size) == received.size();
 }
 
 void ArcosConnection::poll(ArcosSession::Clock::time_point now) {
@@ -52,17 +56,12 @@ void ArcosConnection::send(const std::string& bytes) {
 }
 
 void ArcosConnection::flush() {
-  if (unsent_.empty() || !socket_.is_open()) return;
-  boost::system::error_code error;
-  const std::size_t sent = socket_.write_some(asio::buffer(unsent_), error);
-  unsent_.erase(0, sent);
-  if (error && error != asio::error::would_block && lost_.empty()) lost_ = error.message();
+  if (unsent_.empty()) return;
+  const ssize_t sent = ::send(socket_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+  if (sent > 0) unsent_.erase(0, static_cast<std::size_t>(sent));
+  const bool would_wait = errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+  if (sent < 0 && !would_wait && lost_.empty()) lost_ = std::strerror(errno);
   if (unsent_.size() > kUnsentMax && lost_.empty()) lost_ = "it does not receive what it has requested";
-}
-
-void ArcosConnection::close() {
-  boost::system::error_code ignored;
-  socket_.close(ignored);
 }
 
 const std::string& ArcosConnection::endReason() const { return lost_.empty() ? session_.endReason() : lost_; }

@@ -1,16 +1,10 @@
 #include "serving/arcos_server.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <utility>
-
-#include <boost/asio.hpp>
-#include <fcntl.h>
-#include <unistd.h>
 
 #include "arcos/board/arcos_board.h"
 #include "arcos/board/arcos_session.h"
@@ -18,24 +12,28 @@
 #include "base/log_limiter.h"
 #include "control/robot.h"
 #include "environment/local_hardware.h"
+#include "net/connection_acceptor.h"
 #include "net/host_port.h"
+#include "net/processor_budget.h"
 #include "serving/arcos_connection.h"
 #include "serving/arcos_lasers.h"
+#include "serving/new_arcos_connections.h"
 
 namespace robosim {
 namespace {
 
-namespace asio = boost::asio;
-using asio::ip::tcp;
 using Clock = ArcosSession::Clock;
 
 constexpr double kRadiansPerDegree = M_PI / 180;
 constexpr double kMm = 1000;
 /// ARIA's programs end after 8 s without a SIP, so that SIPs are sent while the run is paused, too.
 constexpr std::chrono::seconds kIdleCycle{1};
-constexpr std::chrono::milliseconds kAcceptPause{100};
-/// Events handled in one poll: connections that are accepted, and reads of up to 4 KiB.
-constexpr std::size_t kMinEventsPerPoll = 16;
+/// Floods and programs that reconnect at once must not delay the step: what is accepted in one poll, and the share of
+/// a processor that connections before their handshake use together.
+constexpr std::size_t kAcceptsPerPoll = 64;
+constexpr double kNewConnectionsShare = 0.2;
+constexpr std::chrono::milliseconds kNewConnectionsBurst{20};  ///< of processor time
+constexpr int kReadsPerPoll = 4;  ///< of each program that drives a robot, up to 4 KiB each
 
 /// A robot of the run, its board, and the program that drives it.
 struct ServedRobot final : Simulator {
@@ -98,51 +96,33 @@ struct ServedRobot final : Simulator {
   LocalHardware hardware;
   Robot robot;
   ArcosBoard board;
-  std::shared_ptr<ArcosConnection> connection;  ///< null without a program
+  std::unique_ptr<ArcosConnection> connection;  ///< null without a program
   std::optional<std::uint64_t> left_at_step;
   std::vector<std::uint16_t> scan_mm;
   std::uint16_t measured_interval_ms = 0;
 };
 
-tcp::endpoint endpointOf(const std::string& listen) {
-  const HostPort at = HostPort::of(hostAndPort(listen));
-  const std::string host = at.host == "localhost" ? "127.0.0.1" : at.host;
-  boost::system::error_code error;
-  const auto address = asio::ip::make_address(host, error);
-  if (error) throw std::runtime_error("--arcos " + listen + ": '" + at.host + "' is no IP address");
-  return {address, static_cast<std::uint16_t>(std::stoi(at.port))};
-}
+using Listener = std::shared_ptr<const ConnectionListener>;
 
-tcp::acceptor openAcceptor(asio::io_context& io, const tcp::endpoint& at) {
-  tcp::acceptor acceptor(io);
-  try {
-    acceptor.open(at.protocol());
-    acceptor.set_option(tcp::acceptor::reuse_address(true));
-    acceptor.bind(at);
-    acceptor.listen();
-  } catch (const boost::system::system_error& error) {
-    const std::string address = withPort(at.address().to_string() + ":0", at.port());
-    throw std::runtime_error("cannot serve ARCOS programs at " + address + ": " + error.code().message() +
-                             "; choose another port with --arcos");
+/// The ports of some robots. A port that `previous` has open is shared.
+std::vector<Listener> listenersFor(const ArcosOptions& options, std::size_t ports,
+                                   const std::vector<Listener>& previous) {
+  const std::string first = hostAndPort(options.listen);
+  const int first_port = std::stoi(HostPort::of(first).port);
+  const bool is_fixed = first_port != 0;
+  if (static_cast<std::size_t>(first_port) + ports > 65536) {
+    throw std::runtime_error(
+        "--arcos " + options.listen + ": " + std::to_string(ports) +
+        " robots need as many ports from this one on, and the last port is 65535; choose a lower one");
   }
-  return acceptor;
-}
-
-/// The same listening socket again.
-tcp::acceptor sharedAcceptor(asio::io_context& io, tcp::acceptor& other) {
-  const int descriptor = fcntl(other.native_handle(), F_DUPFD_CLOEXEC, 0);
-  if (descriptor < 0) {
-    throw std::runtime_error(std::string("cannot share a port for ARCOS programs: ") + std::strerror(errno) +
-                             "; raise the limit of open files (ulimit -n)");
+  std::vector<Listener> listeners;
+  for (std::size_t i = 0; i < ports; ++i) {
+    const int port = is_fixed ? first_port + static_cast<int>(i) : 0;
+    listeners.push_back(is_fixed && i < previous.size() ? previous[i]
+                                                        : std::make_shared<const ConnectionListener>(
+                                                              withPort(first, port), "--arcos (robosim arcos: -p)"));
   }
-  tcp::acceptor acceptor(io);
-  boost::system::error_code error;
-  acceptor.assign(other.local_endpoint().protocol(), descriptor, error);
-  if (error) {
-    close(descriptor);
-    throw boost::system::system_error(error);
-  }
-  return acceptor;
+  return listeners;
 }
 
 }  // namespace
@@ -152,12 +132,10 @@ struct ArcosServer::Impl {
   Clock::time_point last_report = Clock::now();
   ArcosOptions options;
   Environment& environment;
-  asio::io_context io;
   std::vector<std::unique_ptr<ServedRobot>> robots;
-  std::vector<tcp::acceptor> acceptors;  ///< one per robot, or one for all
-  std::vector<std::size_t> paused_acceptors;
-  bool accepts_programs = false;
-  Clock::time_point accept_again;
+  std::optional<ConnectionAcceptor> acceptor;  ///< of a port per robot, or one for all
+  NewArcosConnections new_connections;
+  ProcessorBudget budget{kNewConnectionsShare, kNewConnectionsBurst};  ///< of new connections
   ArcosLasers lasers;
   std::uint64_t steps_per_cycle;
   std::uint64_t steps = 0;  ///< since the last cycle
@@ -177,60 +155,59 @@ struct ArcosServer::Impl {
     for (const auto index : indices) {
       robots.push_back(std::make_unique<ServedRobot>(environment, index, options, log_request));
     }
-    tcp::endpoint at = endpointOf(options.listen);
-    const bool is_fixed = at.port() != 0;
     const std::size_t ports = options.is_factory ? std::min<std::size_t>(1, robots.size()) : robots.size();
-    if (at.port() + ports > 65536) {
-      throw std::runtime_error(
-          "--arcos " + options.listen + ": " + std::to_string(ports) +
-          " robots need as many ports from this one on, and the last port is 65535; choose a lower one");
-    }
-    for (std::size_t i = 0; i < ports; ++i) {
-      const bool is_open = is_fixed && previous && i < previous->acceptors.size();
-      acceptors.push_back(is_open ? sharedAcceptor(io, previous->acceptors[i]) : openAcceptor(io, at));
-      if (is_fixed) at.port(static_cast<std::uint16_t>(at.port() + 1));
-    }
+    acceptor.emplace(
+        listenersFor(options, ports, previous ? previous->acceptor->listeners() : std::vector<Listener>{}),
+        ConnectionAcceptor::Options{.pending = "connections without ARCOS's handshake",
+                                    .take = [this](const AcceptedConnection& accepted) { return take(accepted); },
+                                    .close = [this](ConnectionAcceptor::Number number) { drop(number); }});
   }
 
-  void accept(std::size_t i) {
-    acceptors[i].async_accept([this, i](const boost::system::error_code& error, tcp::socket socket) {
-      if (error == asio::error::operation_aborted) return;
-      if (error) {  // of this machine, such as no free descriptor: tries again later
-        options.log("cannot accept a program: " + error.message());
-        paused_acceptors.push_back(i);
-        accept_again = Clock::now() + kAcceptPause;
-        return;
-      }
-      admit(i, std::move(socket));
-      accept(i);
-    });
+  bool isFree(std::size_t port) const {
+    if (!options.is_factory) return !robots[port]->connection;
+    return std::any_of(robots.begin(), robots.end(), [](const auto& robot) { return robot->isAbsent(); });
   }
-
-  /// The robot for a program that connects to a port; of a factory, one that enters for it. Null if there is none.
+  /// The robot for a program that has connected to a port; of a factory, one that enters for it. Null if there is none.
   ServedRobot* robotFor(std::size_t port) {
     if (!options.is_factory) return robots[port]->connection ? nullptr : robots[port].get();
     const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) { return robot->enter(); });
     return found == robots.end() ? nullptr : found->get();
   }
+  void refuse(const AcceptedConnection& accepted) {
+    limited_log.write("refused ARCOS programs",
+                      "refused " + toHostAndPort(accepted.peer) + ": " +
+                          (options.is_factory ? "all " + std::to_string(robots.size()) +
+                                                    " robots have a program, or their starts are not free; give "
+                                                    "--arcos-factory a greater number"
+                                              : "robot " + robots[accepted.port]->name() + " has a program already"));
+  }
 
-  void admit(std::size_t port, tcp::socket socket) {
-    dropEnded();  // the program before may just have left
-    boost::system::error_code ignored;
-    const auto peer_endpoint = socket.remote_endpoint(ignored);
-    const std::string peer = withPort(peer_endpoint.address().to_string(ignored) + ":0", peer_endpoint.port());
-    ServedRobot* robot = robotFor(port);
-    if (!robot) {
-      limited_log.write("refused ARCOS programs",
-                        "refused " + peer + ": " +
-                            (options.is_factory ? "all " + std::to_string(robots.size()) +
-                                                      " robots have a program, or their starts are not free; give "
-                                                      "--arcos-factory a greater number"
-                                                : "robot " + robots[port]->name() + " has a program already"));
-      return;  // closes the socket
+  /// A connection claims a robot by the handshake only, so that others cannot occupy robots.
+  bool take(const AcceptedConnection& accepted) {
+    if (!isFree(accepted.port)) dropEnded();  // the program before may just have left
+    if (!isFree(accepted.port)) {
+      refuse(accepted);
+      return false;
     }
-    robot->connection = std::make_shared<ArcosConnection>(std::move(socket), peer, robot->board, *robot);
-    robot->connection->start();
-    options.log("robot " + robot->name() + ": connected, " + peer);
+    new_connections.add(accepted,
+                        std::make_unique<ArcosConnection>(accepted, [this, accepted] { return claim(accepted); }));
+    return true;
+  }
+  std::optional<ArcosSession::Robot> claim(const AcceptedConnection& accepted) {
+    dropEnded();
+    ServedRobot* const robot = robotFor(accepted.port);
+    if (!robot) {
+      refuse(accepted);
+      return std::nullopt;
+    }
+    acceptor->release(accepted.number);
+    robot->connection = new_connections.take(accepted.number);
+    options.log("robot " + robot->name() + ": connected, " + robot->connection->peer());
+    return ArcosSession::Robot{&robot->board, robot};
+  }
+  void drop(ConnectionAcceptor::Number number) {
+    acceptor->release(number);
+    new_connections.take(number);
   }
 
   void dropEnded() {
@@ -238,31 +215,33 @@ struct ArcosServer::Impl {
       if (!robot->connection || robot->connection->endReason().empty()) continue;
       options.log("robot " + robot->name() + ": disconnected " + robot->connection->peer() + ": " +
                   robot->connection->endReason());
-      robot->connection->close();
       robot->connection.reset();
       robot->board.endSession();
       if (options.is_factory) robot->leave();
     }
   }
 
+  /// What is left of a flood is handled in the next polls.
+  void pollNewConnections(Clock::time_point now) {
+    if (budget.wait(now).count() > 0) return;
+    const auto begin = processorTimeOfThread();
+    acceptor->accept(kAcceptsPerPoll);
+    for (const auto number : new_connections.receive(now)) drop(number);
+    budget.spend(processorTimeOfThread() - begin, Clock::now());
+  }
+
   void poll() {
-    if (!std::exchange(accepts_programs, true)) {
-      for (std::size_t i = 0; i < acceptors.size(); ++i) accept(i);
-    }
-    // Not until no event is left: floods and programs that reconnect at once would delay the step.
-    const std::size_t max_events = std::max(kMinEventsPerPoll, 4 * robots.size());
-    for (std::size_t n = 0; n < max_events && io.poll_one() > 0; ++n) {
-    }
     const auto now = Clock::now();
-    if (!paused_acceptors.empty() && now >= accept_again) {
-      for (const auto i : std::exchange(paused_acceptors, {})) accept(i);
-    }
     for (const auto& robot : robots) {
+      for (int i = 0; i < kReadsPerPoll && robot->connection && robot->connection->receive(now); ++i) {
+      }
       if (robot->connection) robot->connection->poll(now);
     }
+    pollNewConnections(now);
     dropEnded();
     if (now - last_report > std::chrono::seconds(1)) {
       last_report = now;
+      for (const auto number : new_connections.poll(now)) drop(number);
       limited_log.reportSuppressed();
     }
     if (now - last_cycle > kIdleCycle) sendCycle(now);
@@ -316,22 +295,22 @@ ArcosServer::~ArcosServer() = default;
 std::vector<int> ArcosServer::ports() const {
   std::vector<int> ports;
   for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
-    ports.push_back(impl_->acceptors[impl_->options.is_factory ? 0 : i].local_endpoint().port());
+    ports.push_back(impl_->acceptor->listeners()[impl_->options.is_factory ? 0 : i]->port());
   }
   return ports;
 }
 
 std::size_t ArcosServer::clients() const {
-  return static_cast<std::size_t>(
-      std::count_if(impl_->robots.begin(), impl_->robots.end(), [](const auto& robot) { return robot->connection; }));
+  return static_cast<std::size_t>(std::count_if(impl_->robots.begin(), impl_->robots.end(),
+                                                [](const auto& robot) { return robot->connection != nullptr; }));
 }
 
 void ArcosServer::poll() { impl_->poll(); }
 void ArcosServer::decide() { impl_->decide(); }
 void ArcosServer::stepped() { impl_->stepped(); }
 
-bool isForArcos(const FleetRobot& robot, const ArcosOptions& options) {
-  return robot.model->arcos && (options.has_all || robot.controller.empty());
+bool isForArcos(const FleetRobot& robot, const ArcosOptions& options, bool has_controller) {
+  return robot.model->arcos && (options.has_all || (!has_controller && robot.controller.empty()));
 }
 
 }  // namespace robosim

@@ -14,14 +14,15 @@ struct ArcosOptions {
                                           ///< With port 0 the system chooses each
   bool is_factory = false;                ///< one port; the robots are absent, and each program gets one that comes
                                           ///< to its start, and leaves with the program
-  bool has_all = false;                   ///< also serve robots that have a controller in the world
+  bool has_all = false;                   ///< also serve robots that have a controller
   double speed = 1;                       ///< simulated seconds per second, for SIMSTAT
   std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
 };
 
 /// Serves robots of a run to programs that speak ARCOS, such as those of ARIA (doc/arcos.md). Each robot is driven by
 /// an ArcosBoard; programs get its packets after each cycle of 0.1 s of simulated time. A program that floods, stalls,
-/// or sends what is no packet loses its own connection only.
+/// or sends what is no packet loses its own connection only. Connections are accepted by a ConnectionAcceptor, and
+/// claim a robot by the handshake.
 ///
 /// All functions are called by the thread that steps the environment; none of them waits.
 class ArcosServer {
@@ -54,8 +55,8 @@ class ArcosServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether an ARCOS program may drive a robot: its type has arcos::Parameters, and it has no controller in the world,
-/// unless ArcosOptions::has_all.
-bool isForArcos(const FleetRobot& robot, const ArcosOptions& options);
+/// Whether an ARCOS program may drive a robot: its type has arcos::Parameters, and it has no controller, unless
+/// ArcosOptions::has_all. @param has_controller whether every robot has one, whatever the world says
+bool isForArcos(const FleetRobot& robot, const ArcosOptions& options, bool has_controller);
 
 }  // namespace robosim

@@ -20,7 +20,16 @@ namespace {
 
 /// Whether ARCOS programs drive a robot.
 bool isDrivenByArcos(const FleetRobot& robot, const WorldRunOptions& options) {
-  return options.arcos && options.of_run.run.controller.empty() && isForArcos(robot, *options.arcos);
+  return options.arcos && isForArcos(robot, *options.arcos, !options.of_run.run.controller.empty());
+}
+
+/// Why ARCOS programs drive no robot of a world, and how to change that.
+std::string whyNoneIsForArcos(const WorldRunOptions& options) {
+  if (options.arcos->has_all) return "none is of a type with <arcos>";
+  if (!options.of_run.run.controller.empty()) {
+    return "--controller drives them all; leave it out, or add --arcos-all, which serves those of a type with <arcos>";
+  }
+  return "none of a type with <arcos> is without a controller; --arcos-all serves those with one, too";
 }
 
 /// By robot: whether ARCOS programs drive it.
@@ -166,8 +175,8 @@ void WorldRun::logArcosPorts() const {
   const std::vector<std::size_t> robots = run_->arcosRobots();
   const Environment& environment = run_->run.environment();
   if (robots.empty()) {
-    options_.arcos->log("world " + environment.world().name + " has no robots for ARCOS programs: " +
-                        "none of a type with <arcos> is without a controller; --arcos-all serves those with one, too");
+    options_.arcos->log("world " + environment.world().name +
+                        " has no robots for ARCOS programs: " + whyNoneIsForArcos(options_));
   }
   const std::vector<int> ports = arcos_->ports();
   if (options_.arcos->is_factory && !ports.empty()) {

@@ -9,6 +9,7 @@
 
 #include "console/testing/one_robot_map.h"
 #include "console/testing/test_page.h"
+#include "net/testing/address_flood.h"
 #include "remote/testing/test_robot.h"
 
 namespace robosim {
@@ -106,6 +107,17 @@ struct ConsoleTest : testing::Test {
     wait([&] { return team[0]->robot.state().driver() == "Page"; });
   }
 };
+
+TEST_F(ConsoleTest, ServesPagesDuringAFloodFrom1000Addresses) {
+  TestPage& before = page(kAnnAndBob);
+  const AddressFlood flood(console->port(), "GET / HTTP/1.1\r\n");
+  flood.waitForAll();
+  TestPage& during = page(kOperator);
+  take(during);
+  before.send(R"({"type":"ping","number":12})");
+  wait([&] { return before.has(R"({"type":"pong","number":12})"); });
+  EXPECT_FALSE(before.is_closed);
+}
 
 TEST_F(ConsoleTest, SwitchesOnlyToRobotsThatTheTokenPermits) {
   TestPage& page = this->page(kAnnAndBob);

@@ -22,21 +22,15 @@ constexpr std::size_t kMaxReasonBytes = 123;
 
 std::string textOf(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
-std::string addressOf(const WebStream::Socket& socket) {
-  boost::system::error_code error;
-  const auto endpoint = socket.remote_endpoint(error);
-  if (error) return "";
-  const std::string address = endpoint.address().to_string();
-  constexpr std::string_view mapped = "::ffff:";  // an IPv4 address on a port of both versions
-  return address.starts_with(mapped) ? address.substr(mapped.size()) : address;
-}
-
 }  // namespace
 
-WebConnection::WebConnection(WebConnectionOwner& owner, WebStream::Socket socket, asio::ssl::context* tls)
-    : owner_(owner), peer_(addressOf(socket)), deadline_(socket.get_executor()), buffer_(kMaxHeaderBytes) {
-  boost::system::error_code ignored;
-  socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+WebConnection::WebConnection(WebConnectionOwner& owner, WebStream::Socket socket, std::uint64_t number,
+                             std::string peer, asio::ssl::context* tls)
+    : owner_(owner),
+      number_(number),
+      peer_(std::move(peer)),
+      deadline_(socket.get_executor()),
+      buffer_(kMaxHeaderBytes) {
   stream_.emplace(std::move(socket), tls);
 }
 

@@ -50,8 +50,9 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   static constexpr std::size_t kMaxHeaderBytes = 8192;
   static constexpr std::size_t kMaxMessageBytes = 4096;
 
-  /// @param tls null for none; both must outlive this
-  WebConnection(WebConnectionOwner& owner, WebStream::Socket socket, boost::asio::ssl::context* tls);
+  /// @param number, peer as accepted @param tls null for none; it and the owner must outlive this
+  WebConnection(WebConnectionOwner& owner, WebStream::Socket socket, std::uint64_t number, std::string peer,
+                boost::asio::ssl::context* tls);
 
   void start();
   /// A message for the page may be available.
@@ -61,6 +62,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   /// Closes the connection now.
   void drop();
 
+  std::uint64_t number() const { return number_; }   ///< AcceptedConnection::number
   const std::string& peer() const { return peer_; }  ///< address
   bool isDisconnecting() const { return is_disconnecting_; }
   PageId page() const { return page_; }  ///< 0 as long as there is no WebSocket
@@ -81,7 +83,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   void close();
 
   WebConnectionOwner& owner_;
-  std::string peer_;
+  const std::uint64_t number_;
+  const std::string peer_;
   std::optional<WebStream> stream_;  ///< until there is a WebSocket
   std::optional<WebSocket> socket_;
   boost::asio::steady_timer deadline_;

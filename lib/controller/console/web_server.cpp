@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <openssl/ssl.h>
@@ -16,7 +16,9 @@
 #include "base/log_limiter.h"
 #include "console/origin.h"
 #include "console/web_connection.h"
-#include "net/host_port.h"
+#include "net/connection_acceptor.h"
+#include "net/network_turns.h"
+#include "net/processor_budget.h"
 #include "net/wire_error.h"
 
 namespace robosim {
@@ -25,8 +27,16 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-/// Pause after an error of accept(), for which file descriptors may be missing.
-constexpr std::chrono::milliseconds kAcceptPause{100};
+/// Connections that are accepted before other events have their turn.
+constexpr std::size_t kAcceptsAtOnce = 16;
+
+/// New connections use at most this share of the processor together, so that floods of them hardly delay the pages.
+constexpr double kNewConnectionsShare = 0.2;
+constexpr std::chrono::milliseconds kNewConnectionsBurst{50};  ///< of processor time
+/// Processor time of the server's thread that is charged to one new connection at most: a TLS handshake takes about
+/// 1 ms.
+constexpr std::chrono::milliseconds kNewConnectionMax{2};
+constexpr std::size_t kStartsAtOnce = 4;
 
 /// Elliptic-curve Diffie-Hellman and authenticated encryption only: no CBC, and forward secrecy. TLS 1.3 has no other
 /// ciphers.
@@ -58,30 +68,6 @@ std::unique_ptr<asio::ssl::context> contextOf(const TlsIdentity& identity) {
   return context;
 }
 
-std::string adviceFor(const boost::system::error_code& error) {
-  if (error == asio::error::address_in_use) {
-    return "is another program using the port? Name another with --listen, or :0 for any";
-  }
-  if (error == asio::error::access_denied) return "ports below 1024 are reserved; name another with --listen";
-  return "name an address of this machine with --listen, such as 127.0.0.1:8080";
-}
-
-tcp::acceptor listenOn(asio::io_context& context, const std::string& listen) {
-  const auto [host, port] = HostPort::of(listen);
-  tcp::acceptor acceptor(context);
-  boost::system::error_code error;
-  const auto found = tcp::resolver(context).resolve(host, port, error);
-  if (!error) {
-    const tcp::endpoint endpoint = found.begin()->endpoint();
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-  }
-  if (error) throw std::runtime_error("cannot listen on " + listen + ": " + error.message() + "; " + adviceFor(error));
-  return acceptor;
-}
-
 }  // namespace
 
 struct WebServer::Impl final : public WebConnectionOwner {
@@ -92,19 +78,27 @@ struct WebServer::Impl final : public WebConnectionOwner {
       : options(the_options),
         handler(the_handler),
         tls(options.tls ? contextOf(*options.tls) : nullptr),
-        acceptor(listenOn(context, options.listen)) {
-    accept();
+        acceptor({std::make_shared<const ConnectionListener>(options.listen, "--listen")},
+                 {.pending = "connections without a WebSocket",
+                  .max_pending = kMaxRequests,
+                  .take = [this](const AcceptedConnection& accepted) { return take(accepted); },
+                  .close = [this](ConnectionAcceptor::Number number) { drop(connections.at(number)); }}),
+        listening(context, acceptor.descriptor()) {
+    awaitConnections();
     setTimer();
   }
   ~Impl() override {
     is_over = true;  // the handler may be destroyed by now
-    for (const auto& connection : std::set(connections)) connection->drop();
+    while (!connections.empty()) drop(connections.begin()->second);
+    listening.release();
   }
 
-  void accept();
+  void awaitConnections();
+  void startConnections();
+  std::chrono::milliseconds chargeNewConnections();
+  bool take(const AcceptedConnection& accepted);
+  static void drop(ConnectionPtr connection) { connection->drop(); }  // which removes it from the others
   void setTimer();
-  void makeRoom();
-  ConnectionPtr sharedOf(const WebConnection& connection) const;
   ConnectionPtr find(PageId page) const;
 
   /// @name Calls of the connections
@@ -127,12 +121,17 @@ struct WebServer::Impl final : public WebConnectionOwner {
   LogLimiter log{[this](const std::string& line) { options.log(line); }};
   std::unique_ptr<asio::ssl::context> tls;
   asio::io_context context{1};
-  tcp::acceptor acceptor;
+  ConnectionAcceptor acceptor;
+  asio::posix::stream_descriptor listening;  ///< of the acceptor, which owns it
   asio::steady_timer timer{context};
-  asio::steady_timer accept_pause{context};
-  std::set<ConnectionPtr> connections;
-  std::vector<ConnectionPtr> requests;    ///< connections without a WebSocket, the oldest first
-  std::map<PageId, ConnectionPtr> pages;  ///< connections with one
+  asio::steady_timer accept_pause{context}, start_pause{context};
+  NetworkTurns waiting;  ///< connections that have been accepted, and not started
+  bool is_start_due = false;
+  ProcessorBudget budget{kNewConnectionsShare, kNewConnectionsBurst};  ///< of new connections
+  std::chrono::nanoseconds charged_until{0};                           ///< of the thread's processor time
+  std::chrono::nanoseconds chargeable{0};                              ///< that new connections may still use
+  std::map<ConnectionAcceptor::Number, ConnectionPtr> connections;
+  std::map<PageId, ConnectionPtr> pages;  ///< those with a WebSocket
   PageId last_page = 0;
   std::atomic<bool> is_tick_requested{false};
   bool is_over = false;
@@ -148,38 +147,57 @@ void WebServer::Impl::setTimer() {
   });
 }
 
-void WebServer::Impl::accept() {
-  acceptor.async_accept([this](const Error& error, tcp::socket socket) {
-    if (is_over) return;
-    if (error) {  // of file descriptors, for example, which a closed connection frees
-      makeRoom();
-      accept_pause.expires_after(kAcceptPause);
-      accept_pause.async_wait([this](const Error&) {
-        if (!is_over) accept();
-      });
-      return;
-    }
-    if (requests.size() >= kMaxRequests) makeRoom();
-    const auto connection = std::make_shared<WebConnection>(*this, std::move(socket), tls.get());
-    connections.insert(connection);
-    requests.push_back(connection);
-    connection->start();
-    accept();
+void WebServer::Impl::awaitConnections() {
+  listening.async_wait(asio::posix::stream_descriptor::wait_read, [this](const Error& error) {
+    if (error || is_over) return;
+    if (acceptor.accept(kAcceptsAtOnce)) return awaitConnections();
+    accept_pause.expires_after(ConnectionAcceptor::kPause);
+    accept_pause.async_wait([this](const Error& canceled) {
+      if (!canceled) awaitConnections();
+    });
   });
 }
 
-/// Closes the oldest connection without a WebSocket of the address that has most of them, so that a peer with many
-/// connections displaces only its own.
-void WebServer::Impl::makeRoom() {
-  if (requests.empty()) return;
-  std::map<std::string, std::size_t> count;
-  for (const auto& connection : requests) ++count[connection->peer()];
-  const auto most =
-      std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  const auto oldest = std::find_if(requests.begin(), requests.end(),
-                                   [&](const ConnectionPtr& connection) { return connection->peer() == most->first; });
-  const ConnectionPtr connection = *oldest;
-  connection->drop();
+/// Starts the connections that wait, as far as the budget permits, and the others later.
+void WebServer::Impl::startConnections() {
+  auto pause = chargeNewConnections();
+  for (std::size_t i = 0; i < kStartsAtOnce && pause.count() == 0; ++i) {
+    const auto number = waiting.next();
+    if (!number) break;
+    chargeable = std::min<std::chrono::nanoseconds>(chargeable + kNewConnectionMax, kNewConnectionsBurst);
+    connections.at(*number)->start();
+    pause = chargeNewConnections();
+  }
+  is_start_due = !waiting.isEmpty();
+  if (!is_start_due) return;
+  start_pause.expires_after(pause);
+  start_pause.async_wait([this](const Error& canceled) {
+    if (!canceled) startConnections();
+  });
+}
+
+/// Charges the thread's processor time since the last call to the budget of new connections, as far as they can have
+/// used it. @return the time until another may be started
+std::chrono::milliseconds WebServer::Impl::chargeNewConnections() {
+  const auto now = std::chrono::steady_clock::now();
+  const auto used_until = processorTimeOfThread();
+  const auto used = std::min(used_until - std::exchange(charged_until, used_until), chargeable);
+  chargeable -= used;
+  budget.spend(used, now);
+  return budget.wait(now);
+}
+
+bool WebServer::Impl::take(const AcceptedConnection& accepted) {
+  tcp::socket socket(context);
+  Error error;
+  socket.assign(accepted.peer.is_ipv6 ? tcp::v6() : tcp::v4(), accepted.socket, error);
+  if (error) return false;
+  const auto connection =
+      std::make_shared<WebConnection>(*this, std::move(socket), accepted.number, accepted.peer.host, tls.get());
+  connections[accepted.number] = connection;
+  waiting.add(accepted.number, accepted.peer.network());
+  if (!is_start_due) startConnections();
+  return true;
 }
 
 bool WebServer::Impl::mayOpen(const std::string& origin, const std::string& host, const std::string& offered) {
@@ -200,21 +218,13 @@ std::optional<PageId> WebServer::Impl::opened(WebConnection& connection) {
                                               std::to_string(kMaxPages) + ", the maximum");
       return std::nullopt;
     }
-    const ConnectionPtr page = leaving->second;
-    page->drop();
+    drop(leaving->second);
   }
   const PageId page = ++last_page;
-  const ConnectionPtr shared = sharedOf(connection);
-  std::erase(requests, shared);
-  pages[page] = shared;
+  acceptor.release(connection.number());
+  pages[page] = connections.at(connection.number());
   handler.opened(page, connection.peer());
   return page;
-}
-
-WebServer::Impl::ConnectionPtr WebServer::Impl::sharedOf(const WebConnection& connection) const {
-  const auto found = std::find_if(connections.begin(), connections.end(),
-                                  [&](const ConnectionPtr& shared) { return shared.get() == &connection; });
-  return found == connections.end() ? nullptr : *found;
 }
 
 WebServer::Impl::ConnectionPtr WebServer::Impl::find(PageId page) const {
@@ -223,10 +233,10 @@ WebServer::Impl::ConnectionPtr WebServer::Impl::find(PageId page) const {
 }
 
 void WebServer::Impl::closed(WebConnection& connection) {
-  const ConnectionPtr shared = sharedOf(connection);
-  connections.erase(shared);
-  std::erase(requests, shared);
   const PageId page = connection.page();
+  acceptor.release(connection.number());
+  waiting.remove(connection.number());
+  connections.erase(connection.number());
   if (pages.erase(page) > 0 && !is_over) handler.closed(page);
 }
 
@@ -234,7 +244,7 @@ WebServer::WebServer(const Options& options, WebPageHandler& handler)
     : impl_(std::make_unique<Impl>(options, handler)) {}
 WebServer::~WebServer() = default;
 
-int WebServer::port() const { return impl_->acceptor.local_endpoint().port(); }
+int WebServer::port() const { return impl_->acceptor.listeners().front()->port(); }
 
 void WebServer::serve(const std::function<bool()>& interrupted) {
   while (!interrupted()) impl_->context.run_one_for(kTick);

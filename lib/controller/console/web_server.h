@@ -39,8 +39,9 @@ class WebPageHandler {
 /// HTTP and WebSocket server of a page: Boost.Beast, in one thread. Converts sockets, TLS, HTTP and timers to the
 /// events of a WebPageHandler, and contains no logic of the console.
 ///
-/// Limits: at most kMaxRequests connections without a WebSocket, each with a few seconds for its request; beyond them,
-/// the oldest connection of the address with the most connections is closed. At most kMaxPages WebSockets.
+/// Limits: those of every port (ConnectionAcceptor), with at most kMaxRequests connections without a WebSocket, each
+/// with a few seconds for its request; new ones use a fifth of a processor together, in turn by network. At most
+/// kMaxPages WebSockets.
 class WebServer {
  public:
   static constexpr std::size_t kMaxRequests = 128;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -15,9 +16,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "net/connection_acceptor.h"
+#include "net/connection_opening.h"
 #include "net/flood_guard.h"
 #include "net/net_log.h"
-#include "net/pending_connections.h"
 #include "net/processor_budget.h"
 #include "net/tls_relay.h"
 
@@ -44,22 +46,33 @@ constexpr char kTlsHandshake = 0x16;
 /// The thread of a gate.
 class ConnectionGate::Loop {
  public:
-  Loop(const ConnectionListener& listener, const Options& options, std::function<void(Admitted)> take, int end)
-      : listener_(listener),
+  Loop(const std::shared_ptr<const ConnectionListener>& listener, const Options& options,
+       std::function<void(Admitted)> take, int end)
+      : address_(listener->address()),
         options_(options),
         take_(std::move(take)),
         end_(end),
         tls_(options.tls ? std::make_shared<TlsServer>(*options.tls) : nullptr),
         events_(epoll_create1(EPOLL_CLOEXEC)),
-        pending_(listener.address(), static_cast<std::size_t>(std::max(
-                                         2, listener.descriptors() - ConnectionListener::kReservedDescriptors)) /
-                                         2) {
-    if (events_ < 0) throw std::runtime_error("cannot listen on " + listener.address() + ": " + std::strerror(errno));
+        acceptor_({listener}, {.pending = "connections without an authorised call",
+                               .take =
+                                   [this](const AcceptedConnection& accepted) {
+                                     add(accepted);
+                                     return true;
+                                   },
+                               .close = [this](Number number) { drop(pending_.find(number)); }}) {
+    if (events_ < 0) throw std::runtime_error("cannot listen on " + address_ + ": " + std::strerror(errno));
     if (tls_) TlsRelay::prepare();
     watch(EPOLL_CTL_ADD, end_, kEnd, EPOLLIN);
-    for (const int socket : listener_.sockets()) watch(EPOLL_CTL_ADD, socket, kListener, EPOLLIN);
+    watch(EPOLL_CTL_ADD, acceptor_.descriptor(), kListener, EPOLLIN);
   }
-  ~Loop() { close(events_); }
+  ~Loop() {
+    for (auto& [number, connection] : pending_) {
+      connection.tls.reset();
+      close(connection.accepted.socket);
+    }
+    close(events_);
+  }
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
@@ -77,7 +90,7 @@ class ConnectionGate::Loop {
         readable.push_back(number);
       }
       if (std::find(readable.begin(), readable.end(), kEnd) != readable.end()) return;
-      if (!acceptAll() && isEndedWithin(kAcceptPause)) return;
+      if (!acceptor_.accept(kAcceptsAtOnce) && isEndedWithin(ConnectionAcceptor::kPause)) return;
       readAll(readable);
       passTime();
       account();
@@ -85,12 +98,23 @@ class ConnectionGate::Loop {
   }
 
  private:
-  using Number = PendingConnections::Number;
-  using Iterator = PendingConnections::Iterator;
+  using Number = ConnectionAcceptor::Number;
+  /// A connection before its first authorised call.
+  struct Pending {
+    AcceptedConnection accepted;
+    std::string network;  ///< PeerAddress::network()
+    Clock::time_point since;
+    ConnectionOpening opening{};                   ///< what was received, without TLS
+    std::unique_ptr<TlsServer::Connection> tls{};  ///< null: without TLS, or not yet decrypted
+    bool has_settings = false;                     ///< has been sent the server's SETTINGS
+    bool wants_place = false;                      ///< is to be passed on before an authorised call
+    std::optional<Clock::time_point> parked_at{};  ///< a flood, which is not read any further
+    std::uint32_t last_checked_stream = 0;         ///< the tokens up to this call are not valid
+  };
+  using Iterator = std::map<Number, Pending>::iterator;
   static constexpr Number kEnd = 0, kListener = 1;
   static_assert(kListener < PendingConnections::kFirst);
-  static constexpr int kAcceptsAtOnce = 64;
-  static constexpr std::chrono::milliseconds kAcceptPause{100};
+  static constexpr std::size_t kAcceptsAtOnce = 64;
   static constexpr std::chrono::seconds kStalled{1};
 
   void watch(int operation, int descriptor, Number number, std::uint32_t what) const {
@@ -100,7 +124,7 @@ class ConnectionGate::Loop {
     epoll_ctl(events_, operation, descriptor, &event);
   }
   /// Reports from now on only that the client has closed the connection.
-  void watchForEnd(Iterator it) const { watch(EPOLL_CTL_MOD, it->second.socket, it->first, EPOLLRDHUP); }
+  void watchForEnd(Iterator it) const { watch(EPOLL_CTL_MOD, it->second.accepted.socket, it->first, EPOLLRDHUP); }
 
   bool isEndedWithin(std::chrono::milliseconds wait) const {
     pollfd end{end_, POLLIN, 0};
@@ -109,7 +133,7 @@ class ConnectionGate::Loop {
   int timeoutMs() const {
     constexpr int kPlaceCheckMs = 10, kDeadlineCheckMs = 50;
     if (any_wants_place_) return kPlaceCheckMs;
-    return pending_.isEmpty() ? -1 : kDeadlineCheckMs;
+    return pending_.empty() ? -1 : kDeadlineCheckMs;
   }
   /// Charges the processor time since the last call to the budget.
   void account() {
@@ -117,31 +141,36 @@ class ConnectionGate::Loop {
     budgetOfAllGates().spend(now - std::exchange(used_, now), Clock::now());
   }
 
-  /// @return false when there are connections that cannot be accepted now
-  bool acceptAll() {
-    for (const int socket : listener_.sockets()) {
-      for (int i = 0; i < kAcceptsAtOnce; ++i) {
-        int connection = -1;
-        const auto accepted = listener_.accept(socket, connection);
-        if (accepted == ConnectionListener::Accepted::later) return false;
-        if (accepted != ConnectionListener::Accepted::connection) break;
-        const auto it = pending_.add(socket, connection);
-        if (it == pending_.end()) continue;
-        watch(EPOLL_CTL_ADD, connection, it->first, EPOLLIN | EPOLLRDHUP);
-        if (!tls_) sendSettings(it->second);
-      }
-    }
-    return true;
+  void add(const AcceptedConnection& accepted) {
+    watch(EPOLL_CTL_ADD, accepted.socket, accepted.number, EPOLLIN | EPOLLRDHUP);
+    Pending& pending =
+        pending_.try_emplace(accepted.number, Pending{accepted, accepted.peer.network(), Clock::now()}).first->second;
+    if (!tls_) sendSettings(pending);
+  }
+  /// Removes a connection without closing it.
+  Pending release(Iterator it) {
+    acceptor_.release(it->first);
+    Pending pending = std::move(it->second);
+    pending_.erase(it);
+    return pending;
+  }
+  /// Resets a connection, so that the client's unread bytes do not delay its end.
+  void drop(Iterator it) {
+    Pending pending = release(it);
+    pending.tls.reset();
+    const linger at_once{1, 0};
+    setsockopt(pending.accepted.socket, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+    close(pending.accepted.socket);
   }
 
   /// Clients may wait for SETTINGS before they send anything: gRPC's client does not read otherwise between attempts to
   /// connect.
-  static void sendSettings(PendingConnection& pending) {
+  static void sendSettings(Pending& pending) {
     const std::string_view settings(kSettings.data(), kSettings.size());
     pending.has_settings = true;
     if (pending.tls) {
       pending.tls->write(settings);
-    } else if (send(pending.socket, settings.data(), settings.size(), MSG_NOSIGNAL) < 0) {
+    } else if (send(pending.accepted.socket, settings.data(), settings.size(), MSG_NOSIGNAL) < 0) {
       return;  // the next read reports it
     }
   }
@@ -170,19 +199,20 @@ class ConnectionGate::Loop {
   }
 
   void read(Iterator it) {
-    PendingConnection& pending = it->second;
+    Pending& pending = it->second;
     if (pending.parked_at) {  // only its end is reported
-      pending_.drop(it);
+      drop(it);
       return;
     }
     const bool is_raw = tls_ && !pending.tls;
-    const ssize_t size = pending.tls ? pending.tls->read(buffer_)
-                                     : recv(pending.socket, buffer_.data(), buffer_.size(), is_raw ? MSG_PEEK : 0);
+    const ssize_t size = pending.tls
+                             ? pending.tls->read(buffer_)
+                             : recv(pending.accepted.socket, buffer_.data(), buffer_.size(), is_raw ? MSG_PEEK : 0);
     const bool would_wait = pending.tls ? size == 0 : size < 0 && (errno == EAGAIN || errno == EINTR);
     if (would_wait) {
       if (pending.tls && pending.tls->isEstablished() && !pending.has_settings) sendSettings(pending);
     } else if (size <= 0) {
-      pending_.drop(it);
+      drop(it);
     } else if (is_raw) {
       passRaw(it, buffer_.front());
     } else {
@@ -194,7 +224,7 @@ class ConnectionGate::Loop {
   /// Handles the first byte of a connection with TLS, which has only been peeked at.
   void passRaw(Iterator it, char first) {
     if (it->second.wants_place) {  // the client has closed it meanwhile
-      pending_.drop(it);
+      drop(it);
     } else if (first != kTlsHandshake) {
       refuse(it, "connections without TLS", "it does not begin with TLS; does the client lack --tls-ca?");
     } else {
@@ -206,7 +236,7 @@ class ConnectionGate::Loop {
 
   /// Adds received bytes without TLS.
   void add(Iterator it, std::string_view bytes) {
-    PendingConnection& pending = it->second;
+    Pending& pending = it->second;
     switch (pending.opening.add(bytes)) {
       case ConnectionOpening::Verdict::valid:
         break;
@@ -220,7 +250,7 @@ class ConnectionGate::Loop {
         return;
       case ConnectionOpening::Verdict::excess:
         if (isAuthorised(pending)) return pass(it, true);
-        flood_guard::reportFlood(pending.peer, "floods the server with HTTP/2 frames");
+        flood_guard::reportFlood(pending.accepted.peer, "floods the server with HTTP/2 frames");
         park(it);
         return;
     }
@@ -233,11 +263,11 @@ class ConnectionGate::Loop {
   }
 
   void refuse(Iterator it, const std::string& log_kind, const std::string& why) {
-    logFromNet(log_kind, listener_.address() + ": " + it->second.peer.host + ": connection closed: " + why);
-    pending_.drop(it);
+    logFromNet(log_kind, address_ + ": " + it->second.accepted.peer.host + ": connection closed: " + why);
+    drop(it);
   }
 
-  bool isAuthorised(PendingConnection& pending) const {
+  bool isAuthorised(Pending& pending) const {
     for (const auto& call : pending.opening.calls()) {
       if (std::any_of(options_.public_paths.begin(), options_.public_paths.end(),
                       [&](const std::string& path) { return call.path.starts_with(path); }))
@@ -248,7 +278,7 @@ class ConnectionGate::Loop {
       }
       if (call.stream <= pending.last_checked_stream) continue;
       pending.last_checked_stream = call.stream;
-      if (options_.access.authenticateHeader(call.token, pending.peer.grpcName()).status.ok()) return true;
+      if (options_.access.authenticateHeader(call.token, pending.accepted.peer.grpcName()).status.ok()) return true;
     }
     return false;
   }
@@ -257,14 +287,14 @@ class ConnectionGate::Loop {
   /// reads what is encrypted, and parks what has no valid token. Of a server with public paths, it reads what is
   /// encrypted at any time.
   void passToPlace(Iterator it) {
-    PendingConnection& pending = it->second;
+    Pending& pending = it->second;
     const bool is_raw = tls_ && !pending.tls;
     // gRPC answers calls of public paths itself, so that only the gate can authorise their connections.
     const bool is_alarmed = flood_guard::isAlarmed();
     if (is_raw && (is_alarmed || !options_.public_paths.empty())) {
       pending.wants_place = false;
-      pending.tls = std::make_unique<TlsServer::Connection>(*tls_, pending.socket);
-      watch(EPOLL_CTL_MOD, pending.socket, it->first, EPOLLIN | EPOLLRDHUP);
+      pending.tls = std::make_unique<TlsServer::Connection>(*tls_, pending.accepted.socket);
+      watch(EPOLL_CTL_MOD, pending.accepted.socket, it->first, EPOLLIN | EPOLLRDHUP);
     } else if (!is_alarmed) {
       if (flood_guard::unauthorised() < flood_guard::kMaxUnauthorised) {
         pass(it, false);
@@ -277,8 +307,9 @@ class ConnectionGate::Loop {
   }
 
   void park(Iterator it) {
-    PendingConnection& pending = it->second;
+    Pending& pending = it->second;
     watchForEnd(it);
+    acceptor_.noteFlood(it->first);
     pending.parked_at = Clock::now();
     pending.opening = {};
     pending.tls.reset();
@@ -287,14 +318,14 @@ class ConnectionGate::Loop {
 
   void pass(Iterator it, bool is_authorised) {
     account();
-    PendingConnection pending = pending_.release(it);
-    epoll_ctl(events_, EPOLL_CTL_DEL, pending.socket, nullptr);
-    flood_guard::admit(pending.socket, is_authorised);
-    Admitted admitted{.listener = pending.listener,
-                      .connection = pending.socket,
+    Pending pending = release(it);
+    epoll_ctl(events_, EPOLL_CTL_DEL, pending.accepted.socket, nullptr);
+    flood_guard::admit(pending.accepted.socket, is_authorised);
+    Admitted admitted{.listener = pending.accepted.listener,
+                      .connection = pending.accepted.socket,
                       .received = pending.opening.bytes(),
                       .is_encrypted = tls_ && !pending.tls};
-    if (pending.tls) admitted.connection = TlsRelay::start(pending.socket, tls_, std::move(pending.tls));
+    if (pending.tls) admitted.connection = TlsRelay::start(pending.accepted.socket, tls_, std::move(pending.tls));
     last_passed_ = Clock::now();
     if (admitted.connection >= 0) take_(admitted);
     used_ = processorTimeOfThread();  // gRPC's work for an admitted connection is not charged to the budget
@@ -306,9 +337,9 @@ class ConnectionGate::Loop {
     any_wants_place_ = false;
     for (auto it = pending_.begin(); it != pending_.end();) {
       const auto here = it++;
-      const PendingConnection& pending = here->second;
+      const Pending& pending = here->second;
       if (pending.parked_at ? now - *pending.parked_at >= kPenalty : now - pending.since >= options_.opening_limit) {
-        pending_.drop(here);
+        drop(here);
       } else if (pending.wants_place) {
         passToPlace(here);
       }
@@ -316,20 +347,21 @@ class ConnectionGate::Loop {
     if (!any_wants_place_) {
       stalled_since_.reset();
     } else if (now - std::max(stalled_since_.value_or(now), last_passed_) > kStalled) {
-      flood_guard::raiseAlarm(listener_.address() + ": " + std::to_string(flood_guard::kMaxUnauthorised) +
+      flood_guard::raiseAlarm(address_ + ": " + std::to_string(flood_guard::kMaxUnauthorised) +
                               " connections without an authorised call delay others, and are disconnected");
     } else if (!stalled_since_) {
       stalled_since_ = now;
     }
   }
 
-  const ConnectionListener& listener_;
+  const std::string address_;
   const Options options_;
   const std::function<void(Admitted)> take_;
   const int end_;
   const std::shared_ptr<TlsServer> tls_;  ///< null without TLS
   const int events_;
-  PendingConnections pending_;
+  ConnectionAcceptor acceptor_;
+  std::map<Number, Pending> pending_;  ///< by AcceptedConnection::number
   Number last_read_ = 0;
   bool any_wants_place_ = false;
   std::optional<Clock::time_point> stalled_since_;  ///< connections have waited for a place since then
@@ -338,11 +370,11 @@ class ConnectionGate::Loop {
   std::array<char, 16 * 1024> buffer_{};
 };
 
-ConnectionGate::ConnectionGate(std::unique_ptr<ConnectionListener> listener, const Options& options,
+ConnectionGate::ConnectionGate(std::shared_ptr<const ConnectionListener> listener, const Options& options,
                                std::function<void(Admitted)> take)
     : listener_(std::move(listener)), end_(eventfd(0, EFD_CLOEXEC)) {
   if (end_ < 0) throw std::runtime_error("cannot listen on " + listener_->address() + ": " + std::strerror(errno));
-  loop_ = std::make_unique<Loop>(*listener_, options, std::move(take), end_);
+  loop_ = std::make_unique<Loop>(listener_, options, std::move(take), end_);
   thread_ = std::thread([this] { loop_->run(); });
 }
 

@@ -13,8 +13,8 @@
 
 namespace robosim {
 
-/// Accepts the connections of one address, and passes each to gRPC after its first authorised call: on a thread of its
-/// own, so that what clients send before does not delay the thread that steps the environment. The gates of the
+/// Accepts the connections of one address (ConnectionAcceptor), and passes each to gRPC after its first authorised call:
+/// on a thread of its own, so that what clients send before does not delay the thread that steps the environment. The gates of the
 /// process together use at most kProcessorShare of one processor.
 ///
 /// A call is authorised by a valid token in its headers or, where no tokens are required, by the beginning of its
@@ -47,7 +47,7 @@ class ConnectionGate {
   };
 
   /// @param take receives the admitted connections, on the gate's thread
-  ConnectionGate(std::unique_ptr<ConnectionListener> listener, const Options& options,
+  ConnectionGate(std::shared_ptr<const ConnectionListener> listener, const Options& options,
                  std::function<void(Admitted)> take);
   ~ConnectionGate();  ///< closes the port and the pending connections
   ConnectionGate(const ConnectionGate&) = delete;
@@ -57,7 +57,7 @@ class ConnectionGate {
 
  private:
   class Loop;
-  std::unique_ptr<ConnectionListener> listener_;
+  const std::shared_ptr<const ConnectionListener> listener_;
   int end_ = -1;  ///< an eventfd that stops the thread
   std::unique_ptr<Loop> loop_;
   std::thread thread_;

@@ -24,7 +24,7 @@ constexpr int kBacklog = 1024;
 
 /// Raises the soft limit of descriptors (often 1,024) to the hard limit.
 /// @return the number of descriptors that connections and everything else may use
-int availableDescriptors() {
+int raiseDescriptorLimit() {
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0) return ConnectionListener::kMaxDescriptors;
   files.rlim_cur = files.rlim_max;
@@ -66,26 +66,34 @@ int listenAt(const addrinfo& at, int port) {
   return -1;
 }
 
+std::string causeOf(int error) {
+  if (error == EADDRINUSE) return "is another program using the port?";
+  if (error == EACCES) return "ports below 1024 are reserved.";
+  return std::string(std::strerror(error)) + "; the address must be one of this machine.";
+}
+
 struct FreeAddresses {
   void operator()(addrinfo* all) const { freeaddrinfo(all); }
 };
 
-std::unique_ptr<addrinfo, FreeAddresses> addressesOf(const std::string& address) {
+std::unique_ptr<addrinfo, FreeAddresses> resolve(const std::string& address, const std::string& option) {
   const HostPort parts = HostPort::of(address);
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
   addrinfo* found = nullptr;
   const int error = getaddrinfo(parts.host.c_str(), parts.port.c_str(), &hints, &found);
-  if (error != 0) throw std::runtime_error("cannot listen on " + address + ": " + gai_strerror(error));
+  if (error != 0) {
+    throw std::runtime_error("cannot listen on " + address + ": " + gai_strerror(error) +
+                             "; name an address of this machine with " + option);
+  }
   return std::unique_ptr<addrinfo, FreeAddresses>(found);
 }
 
 }  // namespace
 
 ConnectionListener::ConnectionListener(const std::string& address, const std::string& option) : address_(address) {
-  descriptors_ = availableDescriptors();
-  const auto all = addressesOf(address);
+  const auto all = resolve(address, option);
   int error = 0;
   for (const addrinfo* at = all.get(); at && error != EADDRINUSE; at = at->ai_next) {
     const int listener = listenAt(*at, port_);
@@ -101,13 +109,17 @@ ConnectionListener::ConnectionListener(const std::string& address, const std::st
     return;
   }
   for (const int listener : listeners_) close(listener);
-  throw std::runtime_error("cannot listen on " + address + ": " +
-                           (error == EADDRINUSE ? "is another program using the port?" : std::strerror(error)) +
-                           " Name another with " + option + ", or :0 for any");
+  throw std::runtime_error("cannot listen on " + address + ": " + causeOf(error) + " Name another with " + option +
+                           ", or :0 for any");
 }
 
 ConnectionListener::~ConnectionListener() {
   for (const int listener : listeners_) close(listener);
+}
+
+int ConnectionListener::descriptors() {
+  static const int the_number = raiseDescriptorLimit();
+  return the_number;
 }
 
 ConnectionListener::Accepted ConnectionListener::accept(int listener, int& connection) const {
@@ -120,10 +132,9 @@ ConnectionListener::Accepted ConnectionListener::accept(int listener, int& conne
                address_ + ": cannot accept a connection now: " + std::strerror(errno) + "; trying again");
     return Accepted::later;
   }
-  // The system assigns the lowest free number, so a high number implies that nearly as many are in use.
-  if (connection >= descriptors_ - kReservedDescriptors) {
+  if (isReserved(connection)) {
     close(connection);
-    logFromNet("connections refused", address_ + ": connection refused: the limit of " + std::to_string(descriptors_) +
+    logFromNet("connections refused", address_ + ": connection refused: the limit of " + std::to_string(descriptors()) +
                                           " descriptors is reached (ulimit -Hn; at most " +
                                           std::to_string(kMaxDescriptors) + ")");
     return Accepted::none;

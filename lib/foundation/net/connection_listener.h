@@ -5,8 +5,8 @@
 namespace robosim {
 
 /// The listening sockets of one address. gRPC 1.51's own listener stops accepting for good once the process has run out
-/// of descriptors. This class reports that case, so that its caller can try again, and reserves descriptors for files
-/// and for the program's own connections: a connection beyond the limit is closed at once.
+/// of descriptors. This class reports that case, so that its caller (ConnectionAcceptor) can try again, and reserves
+/// descriptors for files and for the program's own connections: a connection beyond the limit is closed at once.
 class ConnectionListener {
  public:
   /// Maximum number of descriptors that the process uses, for connections and everything else; lower where the system's
@@ -26,8 +26,11 @@ class ConnectionListener {
   int port() const { return port_; }
   const std::string& address() const { return address_; }
   const std::vector<int>& sockets() const { return listeners_; }
-  /// Number of descriptors that the process may use.
-  int descriptors() const { return descriptors_; }
+  /// Number of descriptors that the process may use, kReservedDescriptors of them for no connection.
+  static int descriptors();
+  /// Whether a descriptor is one of those that are used for no connection. The system assigns the lowest free number,
+  /// so that a high number implies that nearly as many are in use.
+  static bool isReserved(int descriptor) { return descriptor >= descriptors() - kReservedDescriptors; }
 
   enum class Accepted { connection, none, later };
   /// Accepts a connection of one of the sockets, without waiting.
@@ -39,7 +42,6 @@ class ConnectionListener {
   std::string address_;
   std::vector<int> listeners_;
   int port_ = 0;
-  int descriptors_ = kMaxDescriptors;
 };
 
 }  // namespace robosim

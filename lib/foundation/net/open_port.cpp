@@ -24,7 +24,7 @@ OpenPort openPort(const std::string& address, const PortOptions& options, const 
   const auto idle_limit_ms = static_cast<int>(options.idle_limit.count());
   grpc::EnableDefaultHealthCheckService(options.standard_services.health);
   OpenPort open;
-  auto listener = std::make_unique<ConnectionListener>(address, options.option);
+  auto listener = std::make_shared<const ConnectionListener>(address, options.option);
   open.number = listener->port();
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, keepalive_ms);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, keepalive_ms);

@@ -4,79 +4,79 @@
 #include <atomic>
 #include <utility>
 
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include "net/net_log.h"
 
 namespace robosim {
 namespace {
 
-std::atomic<std::size_t>& pendingOfAllGates() {
+std::atomic<std::size_t>& pendingOfProcess() {
   static std::atomic<std::size_t> count{0};
   return count;
 }
 
 }  // namespace
 
-PendingConnections::PendingConnections(std::string address, std::size_t max)
-    : address_(std::move(address)), max_(std::min(kMax, max)), share_(std::max<std::size_t>(1, max_ / 4)) {}
+PendingConnections::PendingConnections(Limit limit, std::function<void(Number)> close)
+    : limit_(std::move(limit)), share_(std::max<std::size_t>(1, limit_.max / 4)), close_(std::move(close)) {}
 
-PendingConnections::~PendingConnections() {
-  for (auto& [number, pending] : map_) {
-    pending.tls.reset();
-    close(pending.socket);
+PendingConnections::~PendingConnections() { pendingOfProcess() -= connections_.size(); }
+
+std::optional<PendingConnections::Number> PendingConnections::add(const PeerAddress& peer) {
+  if (pendingOfProcess() >= limit_.max && connections_.size() >= share_) {
+    const auto closed = closeOne();
+    if (!closed) return std::nullopt;
+    logFromNet("connections refused", limit_.address + ": a connection from " + closed->host +
+                                          " is closed: the limit of " + std::to_string(limit_.max) + " " + limit_.kind +
+                                          " is reached");
   }
-  pendingOfAllGates() -= map_.size();
+  ++pendingOfProcess();
+  networks_[peer.network()].others.insert(next_);
+  connections_[next_] = {.peer = peer};
+  return next_++;
 }
 
-PendingConnections::Iterator PendingConnections::add(int listener, int socket) {
-  auto peer = PeerAddress::of(socket);
-  if (!peer || (pendingOfAllGates() >= max_ && map_.size() >= share_ && !dropOne())) {
-    close(socket);
-    return end();
+void PendingConnections::remove(Number number) {
+  const auto found = connections_.find(number);
+  if (found == connections_.end()) return;
+  const auto network = networks_.find(found->second.peer.network());
+  if (found->second.is_flood) --floods_;
+  network->second.floods.erase(number);
+  network->second.others.erase(number);
+  if (network->second.size() == 0) networks_.erase(network);
+  connections_.erase(found);
+  --pendingOfProcess();
+}
+
+void PendingConnections::noteFlood(Number number) {
+  const auto found = connections_.find(number);
+  if (found == connections_.end() || std::exchange(found->second.is_flood, true)) return;
+  ++floods_;
+  Network& network = networks_[found->second.peer.network()];
+  network.others.erase(number);
+  network.floods.insert(number);
+}
+
+/// The connection to close first. There must be one.
+PendingConnections::Number PendingConnections::worst() const {
+  std::size_t most = 0;
+  Number oldest = 0;
+  for (const auto& [name, network] : networks_) {
+    const auto& candidates = floods_ > 0 ? network.floods : network.others;
+    if (candidates.empty() || network.size() < most) continue;
+    if (network.size() == most && *candidates.begin() > oldest) continue;
+    most = network.size();
+    oldest = *candidates.begin();
   }
-  ++pendingOfAllGates();
-  std::string network = peer->network();
-  return map_
-      .emplace(next_++, PendingConnection{.listener = listener,
-                                          .socket = socket,
-                                          .peer = *std::move(peer),
-                                          .network = std::move(network),
-                                          .since = PendingConnection::Clock::now()})
-      .first;
+  return oldest;
 }
 
-PendingConnection PendingConnections::release(Iterator it) {
-  PendingConnection pending = std::move(it->second);
-  map_.erase(it);
-  --pendingOfAllGates();
-  return pending;
-}
-
-void PendingConnections::drop(Iterator it) {
-  PendingConnection pending = release(it);
-  pending.tls.reset();
-  const linger at_once{1, 0};
-  setsockopt(pending.socket, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
-  close(pending.socket);
-}
-
-/// Makes room for a connection. @return false if this gate has none to close
-bool PendingConnections::dropOne() {
-  if (map_.empty()) return false;
-  std::map<std::string, std::size_t> count;
-  for (const auto& [number, pending] : map_) ++count[pending.network];
-  const auto rank = [&](const auto& entry) {
-    return std::pair(entry.second.parked_at.has_value(), count[entry.second.network]);
-  };
-  const auto found =
-      std::max_element(map_.begin(), map_.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-  logFromNet("connections refused", address_ + ": a connection from " + found->second.peer.host +
-                                        " is closed: the limit of " + std::to_string(max_) +
-                                        " connections without an authorised call is reached");
-  drop(found);
-  return true;
+std::optional<PeerAddress> PendingConnections::closeOne() {
+  if (connections_.empty()) return std::nullopt;
+  const Number number = worst();
+  PeerAddress peer = connections_.at(number).peer;
+  remove(number);
+  close_(number);
+  return peer;
 }
 
 }  // namespace robosim

@@ -1,68 +1,84 @@
 #include "net/pending_connections.h"
 
-#include <array>
-#include <deque>
+#include <vector>
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 namespace robosim {
 namespace {
 
-/// Accepts connections of its own over loopback.
-class Loopback {
- public:
-  Loopback() : listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    address_.sin_family = AF_INET;
-    address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address_;
-    EXPECT_EQ(bind(listener_, reinterpret_cast<const sockaddr*>(&address_), size), 0);
-    EXPECT_EQ(listen(listener_, 16), 0);
-    EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address_), &size), 0);
-  }
-  ~Loopback() {
-    for (const int client : clients_) close(client);
-    close(listener_);
-  }
-  Loopback(const Loopback&) = delete;
-  Loopback& operator=(const Loopback&) = delete;
+using Numbers = std::vector<PendingConnections::Number>;
 
-  /// The server's end, which the caller owns.
-  int accept() {
-    clients_.push_back(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    EXPECT_EQ(connect(clients_.back(), reinterpret_cast<const sockaddr*>(&address_), sizeof address_), 0);
-    return accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
+PeerAddress at(const std::string& host) { return {.host = host, .port = 4711}; }
+
+/// Pending connections, and the numbers of those that were closed.
+struct Counted {
+  explicit Counted(std::size_t max)
+      : pending({"127.0.0.1:3000", "connections of a test", max},
+                [this](PendingConnections::Number number) { closed.push_back(number); }) {}
+  ~Counted() {
+    for (const auto number : added) pending.remove(number);
+  }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+  PendingConnections::Number add(const std::string& host = "192.0.2.1") {
+    added.push_back(pending.add(at(host)).value());
+    return added.back();
   }
 
- private:
-  const int listener_;
-  sockaddr_in address_{};
-  std::deque<int> clients_;
+  Numbers added, closed;
+  PendingConnections pending;
 };
 
-TEST(PendingConnections, OfAGateHaveAQuarterWhateverTheOthersHave) {
-  Loopback loopback;
-  PendingConnections full("viewers", 8), other("robots", 8);
-  for (int i = 0; i < 8; ++i) ASSERT_NE(full.add(0, loopback.accept()), full.end());
-  const auto first = other.add(0, loopback.accept());
-  ASSERT_NE(first, other.end());
-  const auto number = first->first;
-  ASSERT_NE(other.add(0, loopback.accept()), other.end());
-  EXPECT_NE(other.find(number), other.end()) << "8 / 4 connections are not closed for each other";
-  ASSERT_NE(other.add(0, loopback.accept()), other.end());
-  EXPECT_EQ(other.find(number), other.end()) << "the limit of all is reached";
+TEST(PendingConnections, OfAnAcceptorHaveAQuarterWhateverTheOthersHave) {
+  Counted full(8), other(8);
+  for (int i = 0; i < 8; ++i) full.add();
+  const auto first = other.add();
+  other.add();
+  EXPECT_EQ(other.closed, Numbers{}) << "8 / 4 connections are not closed for each other";
+  other.add();
+  EXPECT_EQ(other.closed, Numbers{first}) << "the limit of all is reached";
+  EXPECT_EQ(full.closed, Numbers{});
 }
 
 TEST(PendingConnections, BeyondTheLimitReplaceTheOldest) {
-  Loopback loopback;
-  PendingConnections pending("robots", 2);
-  const auto first = pending.add(0, loopback.accept())->first, second = pending.add(0, loopback.accept())->first;
-  pending.add(0, loopback.accept());
-  EXPECT_EQ(pending.find(first), pending.end());
-  EXPECT_NE(pending.find(second), pending.end());
+  Counted two(2);
+  const auto first = two.add(), second = two.add();
+  two.add();
+  EXPECT_EQ(two.closed, Numbers{first});
+  two.add();
+  EXPECT_EQ(two.closed, (Numbers{first, second}));
+}
+
+TEST(PendingConnections, BeyondTheLimitReplaceOnesOfTheNetworkWithTheMost) {
+  Counted four(4);
+  const auto alone = four.add("192.0.2.1");
+  // One host may use all addresses of its /64 network.
+  const auto first = [&] {
+    const auto number = four.pending.add({.host = "2001:db8::1", .port = 1, .is_ipv6 = true}).value();
+    four.added.push_back(number);
+    return number;
+  }();
+  for (const char* host : {"2001:db8::2", "2001:db8::3", "2001:db8::4"}) {
+    four.added.push_back(four.pending.add({.host = host, .port = 1, .is_ipv6 = true}).value());
+  }
+  EXPECT_EQ(four.closed, Numbers{first});
+  four.pending.remove(alone);
+}
+
+TEST(PendingConnections, BeyondTheLimitReplaceFloodsFirst) {
+  Counted three(3);
+  const auto first = three.add(), second = three.add(), flood = three.add("192.0.2.2");
+  three.pending.noteFlood(flood);
+  three.add();
+  EXPECT_EQ(three.closed, Numbers{flood});
+  three.add();
+  EXPECT_EQ(three.closed, (Numbers{flood, first}));
+  three.pending.noteFlood(second);
+  three.pending.remove(second);
+  three.add();
+  EXPECT_EQ(three.closed, (Numbers{flood, first})) << "one has been admitted";
 }
 
 }  // namespace

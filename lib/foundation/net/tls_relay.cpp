@@ -1,5 +1,6 @@
 #include "net/tls_relay.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -19,6 +20,8 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "net/connection_listener.h"
+#include "net/net_log.h"
 #include "net/peer_address.h"
 
 namespace robosim {
@@ -155,6 +158,18 @@ bool bindAbstract(int socket, const std::string& name) {
   return bind(socket, reinterpret_cast<const sockaddr*>(&address), size) == 0;
 }
 
+/// @return false when there are no descriptors for connections
+bool openLocalPair(std::array<int, 2>& ends) {
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) != 0) return false;
+  if (std::none_of(ends.begin(), ends.end(), ConnectionListener::isReserved)) return true;
+  for (const int end : ends) close(end);
+  logFromNet("connections refused", "a connection with TLS is refused: the limit of " +
+                                        std::to_string(ConnectionListener::descriptors()) +
+                                        " descriptors is reached (ulimit -Hn; at most " +
+                                        std::to_string(ConnectionListener::kMaxDescriptors) + ")");
+  return false;
+}
+
 }  // namespace
 
 void TlsRelay::prepare() { relayThread(); }
@@ -163,7 +178,7 @@ int TlsRelay::start(int socket, std::shared_ptr<TlsServer> server, std::unique_p
   static std::atomic<std::uint64_t> number{0};
   const auto peer = PeerAddress::of(socket);
   std::array<int, 2> ends{-1, -1};
-  if (!peer || socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+  if (!peer || !openLocalPair(ends)) {
     tls.reset();
     close(socket);
     return -1;

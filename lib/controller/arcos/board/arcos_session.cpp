@@ -18,8 +18,13 @@ constexpr const char* kRobotClass = "Pioneer";
 
 }  // namespace
 
+ArcosSession::ArcosSession(Claim claim, Clock::time_point now)
+    : claim_(std::move(claim)), connected_at_(now), last_bytes_(now), last_packet_(now) {}
+
 ArcosSession::ArcosSession(ArcosBoard& board, Simulator& simulator, Clock::time_point now)
-    : board_(board), simulator_(simulator), connected_at_(now), last_bytes_(now), last_packet_(now) {}
+    : ArcosSession(Claim{}, now) {
+  robot_ = {&board, &simulator};
+}
 
 void ArcosSession::end(const std::string& reason) {
   if (end_reason_.empty()) end_reason_ = reason;
@@ -64,12 +69,17 @@ void ArcosSession::handshake(const Packet& packet, std::string& answer) {
     answer += encode(packet);
     phase_ = Phase::sync2;
   } else if (is_sync && packet.id == command::sync2 && (phase_ == Phase::sync2 || phase_ == Phase::connected)) {
+    if (!robot_.board) {
+      const auto claimed = claim_();
+      if (!claimed) return end("no robot is free");
+      robot_ = *claimed;
+    }
     arcos::ByteWriter identity;
-    identity.addText(kSimulatorName).addText(kRobotClass).addText(board_.config().subclass);
+    identity.addText(kSimulatorName).addText(kRobotClass).addText(robot_.board->config().subclass);
     answer += arcos::encode(command::sync2, identity.bytes());
     phase_ = Phase::connected;
   } else if (!is_sync && packet.id == command::open && phase_ == Phase::connected) {
-    board_.startSession();
+    robot_.board->startSession();
     phase_ = Phase::open;
   } else if (!is_sync && packet.id == command::close && phase_ == Phase::connected) {
     end("it has closed the session");
@@ -86,7 +96,7 @@ void ArcosSession::execute(const Packet& packet, std::string& answer) {
     case command::close:
       return end("it has closed the session");
     case command::config:
-      answer += encode(board_.config());
+      answer += encode(robot_.board->config());
       return;
     case command::encoder:
       encoder_ = streamOf(packet);
@@ -111,24 +121,24 @@ void ArcosSession::execute(const Packet& packet, std::string& answer) {
     case command::sim_exit:
       return executeSimulator(packet, answer);
     default:
-      board_.execute(packet);
+      robot_.board->execute(packet);
   }
 }
 
 void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
   switch (packet.id) {
     case command::sim_set_pose:
-      if (const auto pose = arcos::decodeSetPose(packet)) simulator_.setTruePose(*pose);
+      if (const auto pose = arcos::decodeSetPose(packet)) robot_.simulator->setTruePose(*pose);
       return;
     case command::sim_reset:
-      simulator_.resetTruePose();
-      board_.zeroOdometry();
+      robot_.simulator->resetTruePose();
+      robot_.board->zeroOdometry();
       return;
     case command::sim_stat:
       sim_stat_ = packet.payload.empty() ? Stream::once : streamOf(packet);
       return;
     case command::sim_message:
-      simulator_.log("message: " + arcos::textOf(packet).value_or(""));
+      robot_.simulator->log("message: " + arcos::textOf(packet).value_or(""));
       return;
     case command::sim_control: {
       arcos::ByteReader bytes(packet.payload);
@@ -138,16 +148,17 @@ void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
         answer += encode(arcos::SimInfo{"RoboSim", "1"});
       } else if (operation == arcos::sim_operation::load_map || operation == arcos::sim_operation::load_master_map) {
         // The program may wait for an answer.
-        answer += encode(arcos::SimMap{.file = simulator_.mapFile()});
-        simulator_.log("a map is not loaded for a program: give it to robosim arcos, or load it by robosim control");
+        answer += encode(arcos::SimMap{.file = robot_.simulator->mapFile()});
+        robot_.simulator->log(
+            "a map is not loaded for a program: give it to robosim arcos, or load it by robosim control");
       } else {
-        simulator_.log(
+        robot_.simulator->log(
             "a SIM_CTRL operation without effect: only loading a map and the information request are answered");
       }
       return;
     }
     default:
-      simulator_.log("SIM_EXIT without effect: a program cannot end the run of the others");
+      robot_.simulator->log("SIM_EXIT without effect: a program cannot end the run of the others");
   }
 }
 
@@ -176,8 +187,9 @@ void ArcosSession::configureLaser(const Packet& packet) {
                                    : LaserRequest::Form::off;
   }
   if (laser_.form == LaserRequest::Form::off || laser_.beamCount() > 0) return;
-  simulator_.log("a laser scan from " + std::to_string(laser_.start_deg) + "° to " + std::to_string(laser_.end_deg) +
-                 "° every " + std::to_string(laser_.increment_centideg) + "/100° is not possible: the laser is off");
+  robot_.simulator->log("a laser scan from " + std::to_string(laser_.start_deg) + "° to " +
+                        std::to_string(laser_.end_deg) + "° every " + std::to_string(laser_.increment_centideg) +
+                        "/100° is not possible: the laser is off");
   laser_.form = LaserRequest::Form::off;
 }
 
@@ -199,19 +211,19 @@ bool ArcosSession::takes(Stream& stream) {
 }
 
 void ArcosSession::beforeStep(Clock::time_point now) {
-  board_.update(isOpen() && now - last_packet_ < std::chrono::milliseconds(arcos::kWatchdog_ms));
+  robot_.board->update(isOpen() && now - last_packet_ < std::chrono::milliseconds(arcos::kWatchdog_ms));
 }
 
 std::string ArcosSession::cycle() {
   commands_ = 0;
   if (!isOpen()) return {};
   std::string packets;
-  if (takes(sim_stat_)) packets += encode(simulator_.stat());
-  packets += encode(board_.sip());
-  if (takes(encoder_)) packets += encode(board_.encoderTicks());
-  if (takes(io_)) packets += encode(board_.ports());
+  if (takes(sim_stat_)) packets += encode(robot_.simulator->stat());
+  packets += encode(robot_.board->sip());
+  if (takes(encoder_)) packets += encode(robot_.board->encoderTicks());
+  if (takes(io_)) packets += encode(robot_.board->ports());
   if (laser_.form != LaserRequest::Form::off) {
-    packets += arcos::encodeScan(laser_.form, simulator_.scan(), std::exchange(was_moved_, false));
+    packets += arcos::encodeScan(laser_.form, robot_.simulator->scan(), std::exchange(was_moved_, false));
   }
   return packets;
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,7 +14,7 @@
 namespace robosim {
 
 /// The robot's side of a connection with one ARCOS program: handshake, commands, and packets in each cycle. A state
-/// machine of bytes without a socket.
+/// machine of bytes without a socket. A connection that does not complete the handshake claims no robot.
 class ArcosSession {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,12 +26,21 @@ class ArcosSession {
   static constexpr std::size_t kCommandsPerCycleMax = 2000;  ///< ARIA sends fewer than 20
   ///@}
 
-  /// @param board, simulator must outlive this
+  /// What a session drives. Both must outlive the session.
+  struct Robot {
+    ArcosBoard* board = nullptr;
+    Simulator* simulator = nullptr;
+  };
+  /// Claims a robot for the session, at its first SYNC2. @return nullopt if none is free, which ends the session
+  using Claim = std::function<std::optional<Robot>()>;
+
+  ArcosSession(Claim claim, Clock::time_point now);
+  /// A session that has its robot from the start.
   ArcosSession(ArcosBoard& board, Simulator& simulator, Clock::time_point now);
 
   /// Processes bytes of the program, possibly none. @return the bytes to answer with
   std::string receive(std::string_view bytes, Clock::time_point now);
-  /// Continues the robot's motion, before a time step.
+  /// Continues the robot's motion, before a time step. The session must have a robot
   void beforeStep(Clock::time_point now);
   /// Begins the next cycle of kCommandsPerCycleMax. To be called in each cycle, also while the run is paused.
   /// @return the packets after a time step: SIP, and what the program has requested with it
@@ -54,8 +65,8 @@ class ArcosSession {
   static Stream streamOf(const arcos::Packet& packet);
   static bool takes(Stream& stream);
 
-  ArcosBoard& board_;
-  Simulator& simulator_;
+  const Claim claim_;
+  Robot robot_;  ///< null until it is claimed
   arcos::PacketReader reader_;
   Phase phase_ = Phase::sync0;
   Clock::time_point connected_at_, last_bytes_, last_packet_;
