@@ -27,16 +27,16 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-/// Connections that are accepted before other events have their turn.
-constexpr std::size_t kAcceptsAtOnce = 16;
+/// Connections that are accepted, and started, before other events have their turn.
+constexpr std::size_t kConnectionsAtOnce = 16;
 
-/// New connections use at most this share of the processor together, so that floods of them hardly delay the pages.
-constexpr double kNewConnectionsShare = 0.2;
+/// Shares of the processor that accepting connections, and new connections until they have sent their request, use at
+/// most, so that floods of them hardly delay the pages.
+constexpr double kAcceptShare = 0.1, kNewConnectionsShare = 0.2;
 constexpr std::chrono::milliseconds kNewConnectionsBurst{50};  ///< of processor time
 /// Processor time of the server's thread that is charged to one new connection at most: a TLS handshake takes about
 /// 1 ms.
 constexpr std::chrono::milliseconds kNewConnectionMax{2};
-constexpr std::size_t kStartsAtOnce = 4;
 
 /// Elliptic-curve Diffie-Hellman and authenticated encryption only: no CBC, and forward secrecy. TLS 1.3 has no other
 /// ciphers.
@@ -127,6 +127,7 @@ struct WebServer::Impl final : public WebConnectionOwner {
   asio::steady_timer accept_pause{context}, start_pause{context};
   NetworkTurns waiting;  ///< connections that have been accepted, and not started
   bool is_start_due = false;
+  ProcessorBudget accept_budget{kAcceptShare, kNewConnectionsBurst};
   ProcessorBudget budget{kNewConnectionsShare, kNewConnectionsBurst};  ///< of new connections
   std::chrono::nanoseconds charged_until{0};                           ///< of the thread's processor time
   std::chrono::nanoseconds chargeable{0};                              ///< that new connections may still use
@@ -150,8 +151,12 @@ void WebServer::Impl::setTimer() {
 void WebServer::Impl::awaitConnections() {
   listening.async_wait(asio::posix::stream_descriptor::wait_read, [this](const Error& error) {
     if (error || is_over) return;
-    if (acceptor.accept(kAcceptsAtOnce)) return awaitConnections();
-    accept_pause.expires_after(ConnectionAcceptor::kPause);
+    const auto begin = processorTimeOfThread();
+    const bool may_continue = acceptor.accept(kConnectionsAtOnce);
+    accept_budget.spend(processorTimeOfThread() - begin, std::chrono::steady_clock::now());
+    if (!is_start_due) startConnections();
+    const auto pause = may_continue ? accept_budget.wait(std::chrono::steady_clock::now()) : ConnectionAcceptor::kPause;
+    accept_pause.expires_after(pause);
     accept_pause.async_wait([this](const Error& canceled) {
       if (!canceled) awaitConnections();
     });
@@ -161,7 +166,7 @@ void WebServer::Impl::awaitConnections() {
 /// Starts the connections that wait, as far as the budget permits, and the others later.
 void WebServer::Impl::startConnections() {
   auto pause = chargeNewConnections();
-  for (std::size_t i = 0; i < kStartsAtOnce && pause.count() == 0; ++i) {
+  for (std::size_t i = 0; i < kConnectionsAtOnce && pause.count() == 0; ++i) {
     const auto number = waiting.next();
     if (!number) break;
     chargeable = std::min<std::chrono::nanoseconds>(chargeable + kNewConnectionMax, kNewConnectionsBurst);
@@ -196,7 +201,6 @@ bool WebServer::Impl::take(const AcceptedConnection& accepted) {
       std::make_shared<WebConnection>(*this, std::move(socket), accepted.number, accepted.peer.host, tls.get());
   connections[accepted.number] = connection;
   waiting.add(accepted.number, accepted.peer.network());
-  if (!is_start_due) startConnections();
   return true;
 }
 
