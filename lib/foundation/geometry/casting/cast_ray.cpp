@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/vector_width.h"
+#include "geometry/casting/grid_traversal.h"
 #include "geometry/casting/single_ray.h"
 #include "geometry/scene_index.h"
 
