@@ -168,23 +168,6 @@ std::string textOf(const BeamModel& b) {
 
 std::string percent(double share) { return fixed(100 * share, 2) + " %"; }
 
-/// Bound of the difference of a rate of the held-out half and that of a model, which is fitted to a half of equal size.
-double rateBound(std::size_t hits, std::size_t trials, std::size_t simulated_hits, std::size_t simulated_trials,
-                 double level) {
-  if (trials == 0 || simulated_trials == 0) return 1;
-  const auto n = static_cast<double>(trials), m = static_cast<double>(simulated_trials);
-  const double rate = (static_cast<double>(hits) / n + static_cast<double>(simulated_hits) / m) / 2;
-  return std::max(kRateTolerance, normalBound(level) * std::sqrt(rate * (1 - rate) * (2 / n + 1 / m)));
-}
-
-bool isJumpRateBeyond(const HeldOutFit& fold, double level) {
-  return std::abs(fold.real.jumpRate() - fold.simulated.jumpRate()) > fold.jumpBound(level);
-}
-
-bool isFlipRateBeyond(const HeldOutFit& fold, double level) {
-  return std::abs(fold.real.flipRate() - fold.simulated.flipRate()) > fold.flipBound(level);
-}
-
 std::string rangeOf(const ConfidenceInterval& interval, double scale, int digits) {
   return " (" + fixed(scale * interval.low, digits) + " … " + fixed(scale * interval.high, digits) + ")";
 }
@@ -217,14 +200,6 @@ std::string parametersOf(const ScannerFit& fit, const std::string& indent) {
 
 }  // namespace
 
-double HeldOutFit::jumpBound(double level) const {
-  return rateBound(real.jumps, real.compared, simulated.jumps, simulated.compared, level);
-}
-
-double HeldOutFit::flipBound(double level) const {
-  return rateBound(real.flips, real.beams, simulated.flips, simulated.beams, level);
-}
-
 double ScannerFit::comparisonLevel() const {
   std::size_t comparisons = 4;  // rates
   for (const auto& differences_m : real.differences_m) comparisons += !differences_m.empty();
@@ -239,10 +214,6 @@ double ScannerFit::ksOf(const PairStatistics& held_out, const PairStatistics& of
 
 double ScannerFit::ksBoundOf(std::size_t band) const {
   return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size(), comparisonLevel());
-}
-
-double HeldOutFit::ksBoundOf(std::size_t band) const {
-  return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
 }
 
 bool ScannerFit::isBeyondBound(const HeldOutFit& half, std::size_t band) const {

@@ -5,6 +5,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "calibration/beam_model.h"
+#include "calibration/cross_validation.h"
 #include "calibration/laser_fit.h"
 #include "calibration/lost_echoes.h"
 #include "calibration/matched_scans.h"
@@ -27,23 +28,8 @@ enum class FitBasis {
   local_map,
 };
 
-/// A model estimated from every other pair of scans at rest, or from every other scan of a drive, and compared with the
-/// others.
-struct HeldOutFit {
-  std::vector<ScanPair> fitted, held_out;  ///< empty for FitBasis::local_map
-  LaserFit model;
-  PairStatistics real, simulated;  ///< of the held-out pairs or scans, and of the model
-
-  /// Bound of the Kolmogorov–Smirnov distance of a band, at a level of 1 % for this band alone.
-  double ksBoundOf(std::size_t band) const;
-  /// Bounds of the difference of the rates of jumps and of changes of validity: those that equal rates exceed with
-  /// probability `level`, at least kRateTolerance. The pairs of one half share no scan and are independent.
-  double jumpBound(double level) const;
-  double flipBound(double level) const;
-};
-
 /// A model of a scanner, estimated from all pairs of scans at rest, or from all scans of a drive. Two-fold
-/// cross-validation compares each pair or scan with a model that is not fitted to it.
+/// cross-validation (HeldOutFit) compares each pair or scan with a model that is not fitted to it.
 struct ScannerFit {
   ScanSeries series;
   FitBasis basis = FitBasis::scans_at_rest;
@@ -71,8 +57,6 @@ struct ScannerFit {
   bool isAccepted() const;
 };
 
-/// Differences of a rate up to this are accepted, however many data there are.
-constexpr double kRateTolerance = 0.003;
 constexpr double kVerdictLevel = 0.01;
 /// Fewest pairs of scans at rest from which errors are estimated.
 constexpr std::size_t kFewestPairs = 2;
