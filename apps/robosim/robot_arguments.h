@@ -1,9 +1,11 @@
 #pragma once
+#include <chrono>
 #include <string>
 #include <vector>
 
 #include "control/controller_error.h"
 #include "net/connect.h"
+#include "remote/drive_command_filter.h"
 #include "remote/remote_control_robot.h"
 #include "remote/remote_port.h"
 #include "robosim/connection.h"
@@ -25,7 +27,7 @@ struct RobotArguments {
   bool joins_next_run = false;
   std::string remote_port;
   ListenerArguments listener;
-  double dead_man_s = 0.5;
+  double dead_man_s = std::chrono::duration<double>(DriveCommandFilter::kDeadMan).count();
   std::string arcos;       ///< channel to a robot that speaks ARCOS, as openChannel(); empty: a robot of a served world
   std::string arcos_type;  ///< its robot type; empty: what it reports
   std::string arcos_log;
