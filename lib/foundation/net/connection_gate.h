@@ -13,9 +13,9 @@
 
 namespace robosim {
 
-/// Accepts the connections of one address (ConnectionAcceptor), and passes each to gRPC after its first authorised call:
-/// on a thread of its own, so that what clients send before does not delay the thread that steps the environment. The gates of the
-/// process together use at most kProcessorShare of one processor.
+/// Accepts the connections of one address (ConnectionAcceptor), and passes each to gRPC after its first authorised
+/// call: on a thread of its own, so that what clients send before does not delay the thread that steps the environment.
+/// The gates of the process together use at most kProcessorShare of one processor.
 ///
 /// A call is authorised by a valid token in its headers or, where no tokens are required, by the beginning of its
 /// message. A connection that sends anything else to excess (ConnectionOpening) is a flood: it is not read any further,
