@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle_units.h"
 #include "sensors/laser.h"
 
 namespace robosim {
 namespace {
-
-constexpr double kRadPerDeg = M_PI / 180;
 
 /// SICK LMS200 at its longest range, where the robot type has no laser.
 LaserOptions defaultLaser() {

@@ -9,6 +9,7 @@
 #include "arcos/board/arcos_board.h"
 #include "arcos/board/arcos_session.h"
 #include "arcos/protocol/parameters.h"
+#include "base/angle_units.h"
 #include "base/log_limiter.h"
 #include "control/robot.h"
 #include "environment/local_hardware.h"
@@ -24,7 +25,6 @@ namespace {
 
 using Clock = ArcosSession::Clock;
 
-constexpr double kRadiansPerDegree = M_PI / 180;
 constexpr double kMm = 1000;
 /// ARIA's programs end after 8 s without a SIP, so that SIPs are sent while the run is paused, too.
 constexpr std::chrono::seconds kIdleCycle{1};
@@ -59,10 +59,10 @@ struct ServedRobot final : Simulator {
             .x_mm = mm(pose.x),
             .y_mm = mm(pose.y),
             .z_mm = 0,
-            .heading_deg = static_cast<std::int32_t>(std::lround(pose.phi / kRadiansPerDegree))};
+            .heading_deg = static_cast<std::int32_t>(std::lround(pose.phi / kRadPerDeg))};
   }
   void setTruePose(const arcos::SimPose& pose) override {
-    placeAt({pose.x_mm / kMm, pose.y_mm / kMm, pose.heading_deg * kRadiansPerDegree});
+    placeAt({pose.x_mm / kMm, pose.y_mm / kMm, pose.heading_deg * kRadPerDeg});
   }
   void resetTruePose() override { placeAt(environment.fleet().robots[index].world_from_start); }
   std::span<const std::uint16_t> scan() const override { return scan_mm; }

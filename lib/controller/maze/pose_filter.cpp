@@ -4,18 +4,18 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
 
 namespace robosim {
 namespace {
 
-constexpr double kDegree_rad = M_PI / 180;
 // Expected errors before any measurement.
 constexpr double kTurnScaleStd = 0.03, kCurvatureStd_radpm = 0.01;
-constexpr double kDeviationStd_rad = 20 * kDegree_rad;
-constexpr double kHardIronStd_rad = 5 * kDegree_rad, kSoftIronStd_rad = 2 * kDegree_rad;
-constexpr double kCompassStd_rad = 3 * kDegree_rad;
+constexpr double kDeviationStd_rad = 20 * kRadPerDeg;
+constexpr double kHardIronStd_rad = 5 * kRadPerDeg, kSoftIronStd_rad = 2 * kRadPerDeg;
+constexpr double kCompassStd_rad = 3 * kRadPerDeg;
 // Random errors of the odometry, as variances per metre and per radian.
 constexpr double kPlaceVariance_per_m = 0.03 * 0.03;
 constexpr double kHeadingVariance_per_m = 0.012 * 0.012;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/angle_units.h"
 #include "base/printable_text.h"
 
 namespace robosim {
 namespace {
 
 const XmlElement kNothing;
-constexpr double kRadPerDeg = M_PI / 180;
 
 /// The unit in which a setting's name ends, as printed after its bounds.
 std::string unitOf(const std::string& setting) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle_units.h"
 #include "base/digest.h"
 #include "base/xml_reader.h"
 #include "robots/arcos_parameters_reader.h"
@@ -13,8 +14,6 @@
 
 namespace robosim {
 namespace {
-
-constexpr double kRadPerDeg = M_PI / 180;
 
 Body readBody(XmlReader& reader, BodyLook& look) {
   Body body;

@@ -1,9 +1,9 @@
 #include "sensors/laser_types.h"
 
+#include "base/angle_units.h"
+
 namespace robosim {
 namespace {
-
-constexpr double kRadPerDeg = M_PI / 180;
 
 // clang-format off
 /// Sources of all figures: doc/fidelity.md.

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "sensors/beam_mounts.h"
 #include "sensors/position_2005.h"
@@ -7,8 +8,6 @@
 
 namespace robosim {
 namespace {
-
-constexpr double kSonarRadPerDeg = M_PI / 180;
 
 SonarModel readModel(XmlReader& reader, SonarModel otherwise) {
   return reader.choice<SonarModel>("model", {{"sector", SonarModel::sector}, {"rays", SonarModel::rays}}, otherwise);
@@ -51,7 +50,7 @@ SonarOptions SonarOptions::read2005(XmlReader& reader, const Mount& mount) {
   const double aside_m = mount.robot_radius_m / 6;
   const double bearings_deg[] = {-90, -50, -30, -10, 10, 30, 50, 90, 90, 130, 150, 170, -170, -150, -130, -90};
   for (int i = 0; i < (mode == 1 ? 8 : 16); ++i) {
-    const double angle = bearings_deg[i] * kSonarRadPerDeg;
+    const double angle = bearings_deg[i] * kRadPerDeg;
     const bool faces_sideways = std::abs(bearings_deg[i]) == 90;
     const auto [sin, cos] = portable::sincos(angle);
     const double x_m = faces_sideways ? (i < 8 ? aside_m : -aside_m) : mount.robot_radius_m * cos;

@@ -9,6 +9,7 @@
 #include "arcos/protocol/bumpers.h"
 #include "arcos/protocol/bytes.h"
 #include "arcos/protocol/command.h"
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
 
@@ -19,7 +20,6 @@ namespace command = arcos::command;
 using arcos::Packet;
 using arcos::Sip;
 
-constexpr double kRadPerDeg = M_PI / 180;
 constexpr double kMm = 1000;
 /// Stands for a maximum speed of 0, which AxisLimits reads as the hardware's [m/s, rad/s].
 constexpr double kStanding = 1e-9;

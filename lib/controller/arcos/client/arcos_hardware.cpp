@@ -10,6 +10,7 @@
 
 #include "arcos/protocol/bumpers.h"
 #include "arcos/protocol/command.h"
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/portable_pose.h"
@@ -21,7 +22,6 @@ namespace command = arcos::command;
 using arcos::encodeCommand;
 using arcos::Sip;
 
-constexpr double kRadPerDeg = M_PI / 180;
 constexpr double kMm = 1000;
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr std::chrono::seconds kStopMax{5};  ///< from 1 m/s at 0.3 m/s²: 3.3 s
