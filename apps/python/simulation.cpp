@@ -11,6 +11,7 @@
 #include "python_released.h"
 #include "python_robot.h"
 #include "run/output_files.h"
+#include "run/outputs/intervention_note.h"
 #include "run/run_summary.h"
 
 namespace robosim {
@@ -184,7 +185,10 @@ std::uint64_t Simulation::advance(std::uint64_t steps_max) {
 
 void Simulation::observe() {
   const State& state = environment().state();
-  if (recording_) recording_->write(state.readings, state.world_from_robot, state.commands);
+  if (!recording_) return;
+  recording_->write(state.readings, state.world_from_robot, state.commands,
+                    notesBefore(state, state.time.step, is_new_recording_));
+  is_new_recording_ = false;
 }
 
 void Simulation::restore(std::string_view bytes) {
@@ -202,6 +206,7 @@ void Simulation::record(const std::filesystem::path& file) {
   recording_ =
       std::make_unique<RawlogWriter>(file, robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
   recorded_ = std::make_unique<RunNote>(std::move(note));
+  is_new_recording_ = true;
   observe();
 }
 
@@ -211,11 +216,14 @@ void Simulation::stopRecording() {
   RunSummary summary = RunSummary::of(*run_);
   summary.world = world_->source.file;
   summary.seed = options_.environment.seed;
-  summary.ended_by = environment().allHalted() ? EndedBy::all_halted : EndedBy::interrupt;
+  summary.ended_by = environment().state().ended ? EndedBy::intervention
+                     : environment().allHalted() ? EndedBy::all_halted
+                                                 : EndedBy::interrupt;
   recorded_->outcome = summary.json();
   // Equal runs give equal files.
   for (const char* of_the_clock : {"wall_s", "real_time_factor"}) recorded_->outcome.erase(of_the_clock);
-  ended->close(recorded_->text());
+  const State& state = environment().state();
+  ended->close(recorded_->text(), notesBefore(state, state.time.step + 1, false));
 }
 
 void Simulation::close() {

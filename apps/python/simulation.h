@@ -112,6 +112,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   std::map<std::string, std::vector<std::unique_ptr<ObservationLayout>>> layouts_;
   std::unique_ptr<RawlogWriter> recording_;
   std::unique_ptr<RunNote> recorded_;  ///< the recording's note
+  bool is_new_recording_ = false;      ///< no step of it has been written
   std::atomic<bool> engine_runs_ = false;
   bool is_in_step_ = false;
   bool is_closed_ = false;

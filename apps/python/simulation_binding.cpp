@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "environment/state_bytes.h"
+#include "interventions.h"
 #include "pictures.h"
 #include "python_errors.h"
 #include "python_robot.h"
@@ -218,14 +219,15 @@ void bindSimulation(py::module_& module) {
       .def(
           "plan",
           [](const Simulation& of) {
-            return planOf(toRead(of).environment().world(), of.environment().fleet(), stateOf(of).world_from_robot);
+            return planOf(toRead(of).environment().presentWorld(), of.environment().fleet(),
+                          stateOf(of).world_from_robot);
           },
           "Plan from above with the robots at their poses: uint8, shape (height, width, 3): red, green, blue.")
       .def(
           "_repr_svg_",
           [](const Simulation& of) {
             return toPython(
-                svgOf(toRead(of).environment().world(), of.environment().fleet(), stateOf(of).world_from_robot));
+                svgOf(toRead(of).environment().presentWorld(), of.environment().fleet(), stateOf(of).world_from_robot));
           },
           "The plan as an SVG document, which notebooks show.")
       .def("close", close, "Completes the recording, and ends the use of the simulation. Arrays keep their values.")
@@ -242,6 +244,7 @@ void bindSimulation(py::module_& module) {
   bindArrays(simulation);
   bindMessages(simulation);
   bindSaving(simulation);
+  bindInterventions(simulation);
 }
 
 }  // namespace robosim

@@ -11,6 +11,7 @@
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/connection.h"
+#include "robosim/control_changes.h"
 #include "robosim/subcommands.h"
 
 namespace robosim {
@@ -169,6 +170,10 @@ void addControl(CLI::App& program) {
       ->check(CLI::IsMember({"on", "off"}))
       ->type_name("on|off")
       ->required();
+  addChanges(*control, [a](const Change& change) {
+    ControlPanel panel(a->connectOptions());
+    showLine(panel.supervise(change));
+  });
   add_call("stop", "end the run and the serving program", [](ControlPanel& panel) { return panel.stop(); });
   auto* status = add("status", "show the status of the run", [a] { showStatus(*a); });
   const auto* watch = status->add_flag("--watch", a->watch, "print one line per report until the run is over");

@@ -19,6 +19,64 @@ def driven(robots=2, **options):
     return robosim.Simulation(scene.world(robots), controller="none", **options)
 
 
+class InterventionTest(unittest.TestCase):
+    def test_places_adds_changes_and_removes_as_the_recording_repeats(self):
+        with tempfile.TemporaryDirectory() as folder:
+            world = os.path.join(folder, "scene.xml")
+            with open(world, "w") as file:
+                file.write(scene.text())
+            rawlog = os.path.join(folder, "run.rawlog")
+            with robosim.Simulation(robosim.World.load(world), controller="wander") as simulation:
+                simulation.record(rawlog)
+                simulation.step(5)
+                simulation.place("R2", 1, 3, heading=1.5)
+                self.assertEqual(simulation.poses[1].tolist(), [1, 3, 1.5])
+                simulation.place("Gold", 2, -2)
+                simulation.add_box("box", 3, 0, 0.5, 1, color=(1, 0, 0))
+                simulation.add_cylinder("pillar", -3, 0, 0.3)
+                simulation.step(5)
+                simulation.change("box", heat_celsius=30, height_m=2)
+                simulation.remove("pillar")
+                simulation.set_activity("R1", "halted")
+                simulation.intervene('<communication><range>5</range></communication>')
+                self.assertEqual([body.name for body in simulation.objects], ["Gold", "box"])
+                simulation.step(20)
+                self.assertIsNone(simulation.outcome)
+                simulation.end("done", "all is arranged")
+                self.assertEqual(simulation.outcome, "done")
+            check = subprocess.run([os.path.join(os.environ["ROBOSIM_PREFIX"], "bin", "robosim"), "replay", "--check", world, rawlog],
+                                   capture_output=True, text=True)
+            self.assertEqual((check.returncode, check.stdout.split(",")[0]), (0, "The same run: 30 steps"),
+                             check.stdout + check.stderr)
+
+    def test_says_what_is_wrong(self):
+        with driven() as simulation:
+            for call, fault in (
+                    (lambda: simulation.place("R3", 0, 0), "'R3' is not the name of a robot or an object; did you mean R1?"),
+                    (lambda: simulation.place("R1", 4, 0.3), "'R1' would overlap 'Gold'; choose another place"),
+                    (lambda: simulation.add_cylinder("Gold", 5, 5, 1),
+                     "there is a robot or an object named 'Gold' already; use another name"),
+                    (lambda: simulation.change("Gold"),
+                     "<change>: changes nothing; give hot, color, height or reflectivity")):
+                with self.assertRaises(ValueError) as raised:
+                    call()
+                self.assertEqual(str(raised.exception), fault)
+
+    def test_changes_what_a_fork_and_a_restored_state_continue_with(self):
+        with driven() as simulation:
+            before = simulation.save()
+            simulation.place("Gold", 1, 5)
+            fork = simulation.fork()
+            saved = simulation.save()
+            simulation.restore(before)
+            self.assertEqual(simulation.objects[0].pose[0], 4)
+            simulation.restore(saved)
+            self.assertEqual(simulation.objects[0].pose[0], 1)
+            for run in (simulation, fork):
+                run.step(10)
+            self.assertEqual(simulation.digest, fork.digest)
+
+
 class StepTest(unittest.TestCase):
     def test_advances_time(self):
         with driven(period_s=0.5) as simulation:

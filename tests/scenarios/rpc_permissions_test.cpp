@@ -30,6 +30,7 @@ const char* const kTokens =
     "robot-0123456789abcdef robot Pioneer1\n"
     "geometry-0123456789abcdef geometry\n"
     "operator-0123456789abcdef operator\n"
+    "supervisor-0123456789abcdef supervisor\n"
     "expired-0123456789abcdef operator expires=2020-01-31\n";
 
 /// A role, by its column in the table, and its token.
@@ -40,7 +41,8 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> all{{"viewer", "viewer-0123456789abcdef"},
                                        {"robot", "robot-0123456789abcdef"},
                                        {"geometry", "geometry-0123456789abcdef"},
-                                       {"operator", "operator-0123456789abcdef"}};
+                                       {"operator", "operator-0123456789abcdef"},
+                                       {"supervisor", "supervisor-0123456789abcdef"}};
   return all;
 }
 
@@ -58,6 +60,7 @@ const std::map<std::string, std::string>& firstMessages() {
       {"ControlPanel.SetSpeed", "protocol: 1 speed: -1"},
       {"ControlPanel.SetRecording", "protocol: 1 on: false"},
       {"ControlPanel.Stop", "protocol: 1"},
+      {"ControlPanel.Supervise", "protocol: 1 change: 'none'"},
       {"ControlPanel.GetStatus", "protocol: 1"},
       {"ControlPanel.Watch", "protocol: 1"},
       {"RemoteControl.Control", "init { protocol: 1 robot: 'ROBOT' }"},

@@ -84,7 +84,10 @@ void SimulatedArcosRobot::step() {
 }
 
 void SimulatedArcosRobot::setTruePose(const arcos::SimPose& pose) {
-  environment_->place(0, {pose.x_mm / 1000.0, pose.y_mm / 1000.0, pose.heading_deg * M_PI / 180});
+  const PlaceBody place{environment_->robotNames()[0], pose.x_mm / 1000.0, pose.y_mm / 1000.0,
+                        pose.heading_deg * M_PI / 180};
+  const std::string fault = environment_->apply({"ARCOS program", place});
+  if (!fault.empty()) log(fault);
 }
 
 std::unique_ptr<ByteChannel> SimulatedArcosRobot::channel(Noise to_robot, Noise from_robot) {

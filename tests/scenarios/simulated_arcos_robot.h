@@ -45,7 +45,7 @@ class SimulatedArcosRobot final : private Simulator {
   arcos::SimStat stat() const override { return {.interval_ms = 100}; }
   std::string mapFile() const override { return "here.map"; }
   void setTruePose(const arcos::SimPose& pose) override;
-  void resetTruePose() override { environment_->place(0, {}); }
+  void resetTruePose() override { setTruePose({}); }
   std::span<const std::uint16_t> scan() const override { return scan_mm_; }
   void log(const std::string& text) override { log_text += text + '\n'; }
 

@@ -259,5 +259,20 @@ TEST(Viewing, TextViewerPrintsFramesAndReadingsUntilTheRunIsOver) {
   EXPECT_EQ(countOf("  Pioneer1; ", ended.out), 0u) << ended.out;
 }
 
+TEST(Viewing, ShowsAnInterventionAlsoInAPausedRun) {
+  ServedWorld world(paused());
+  Panel panel(world);
+  Viewer viewer(world.connectOptions());
+  EXPECT_FALSE(viewer.run().snapshot.objects.areChanged());
+  const WorldObject box{"box", {Cube{0.1, 0.1}, {0.5, 0.5, 0}, 5, 0.1}, true, {}};  // above the robots
+  panel.supervise(AddObject{box});
+  ASSERT_TRUE(viewer.waitForFrame());
+  EXPECT_EQ(viewer.run().snapshot.step, 0u);
+  std::vector<WorldObject> expected = viewer.run().world.world.objects;
+  expected.push_back(box);
+  EXPECT_EQ(viewer.run().snapshot.objects, ChangedObjects(expected));
+  EXPECT_EQ(Viewer(world.connectOptions()).run().snapshot.objects, ChangedObjects(expected)) << "one who comes later";
+}
+
 }  // namespace
 }  // namespace robosim

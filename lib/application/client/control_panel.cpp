@@ -52,6 +52,12 @@ v1::RunStatus ControlPanel::setRecording(bool on) {
   return call(&v1::ControlPanel::Stub::SetRecording, request);
 }
 
+v1::RunStatus ControlPanel::supervise(const Change& change) {
+  v1::SuperviseRequest request;
+  request.set_change(changeText(change));
+  return call(&v1::ControlPanel::Stub::Supervise, request);
+}
+
 v1::RunStatus ControlPanel::load(const WorldSource& world) {
   v1::WorldSource message;
   encode(world, message);

@@ -8,6 +8,7 @@
 #include "net/connect.h"
 #include "robosim/v1/control_panel.grpc.pb.h"
 #include "robots/world_source.h"
+#include "world/intervention.h"
 
 namespace robosim {
 
@@ -26,7 +27,8 @@ class ControlPanel {
   v1::RunStatus setSpeed(double speed);     ///< simulated seconds per second; 0: unlimited
   /// Ends the run, and starts another with this world, paused.
   v1::RunStatus load(const WorldSource& world);
-  v1::RunStatus setRecording(bool on);  ///< starts or stops the recording of the run
+  v1::RunStatus setRecording(bool on);            ///< starts or stops the recording of the run
+  v1::RunStatus supervise(const Change& change);  ///< changes the run from outside, before its next step
   v1::RunStatus stop();
   v1::RunStatus status();
 

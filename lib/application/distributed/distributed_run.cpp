@@ -12,6 +12,7 @@
 #include "distributed/rank_bytes.h"
 #include "distributed/ranks/agreement.h"
 #include "distributed/run_identity.h"
+#include "environment/intervention_bytes.h"
 #include "environment/step_phases.h"
 
 namespace robosim {
@@ -58,6 +59,7 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
       distribution_(distribution),
       own_(static_cast<std::size_t>(group.rank())),
       has_observers_(!options.observers.empty()),
+      has_supervisors_(anySupervises(options.observers)),
       to_(shares_.ranks()),
       last_s_(secondsNow()) {
   for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) needed_.push_back(shares_.needed(rank));
@@ -266,9 +268,20 @@ void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const
 
 void DistributedRun::observe() {
   if (!has_observers_) return;
-  std::string is_over(1, run_->isOver() ? 1 : 0);
-  group_.broadcast(is_over);
-  is_over_ = is_over[0] != 0;
+  Environment& environment = run_->environment();
+  StateWriter decided;
+  decided.addNumber(std::uint8_t{run_->isOver()});
+  for (const auto& applied : environment.state().interventions) {
+    if (applied.step > environment.time().step) writeIntervention(applied.intervention, decided);
+  }
+  group_.broadcast(decided.bytes);
+  readRankBytes(decided.bytes, "decisions of observers", [&](StateReader& in) {
+    is_over_ = in.takeFlag();
+    while (!in.isAtEnd()) {
+      const Intervention intervention = readIntervention(in);
+      if (own_ > 0) environment.applyAgain(intervention);
+    }
+  });
   finished(waiting);
 }
 

@@ -118,6 +118,7 @@ class DistributedRun {
   void exchangeStays(bool is_end_requested);
   /// Sends readings from the ranks that have those of `from` to those that need those of `to`.
   void exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to);
+  /// Tells the other ranks what the observers of rank 0 have decided: the end of the run, and interventions.
   void observe();
   void balance();
   /// Sends out_ to all ranks; all_ is then what all have sent.
@@ -135,6 +136,7 @@ class DistributedRun {
   DistributionOptions distribution_;
   std::size_t own_;  ///< rank
   bool has_observers_;
+  bool has_supervisors_;            ///< observers that may change the run
   std::vector<RobotRange> needed_;  ///< by rank: RankShares::needed()
   bool sends_readings_ = false;     ///< whether ranks need readings that others compute
   std::unique_ptr<LocalRun> run_;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
+#include "base/random.h"
 #include "distributed/ranks/testing/thread_ranks.h"
 #include "distributed/run_identity.h"
 #include "environment/testing/small_world.h"
@@ -22,9 +23,14 @@ struct Settings {
   std::string controller = "";
   int steps = 100;
   std::vector<std::string> observers = {};
+  std::vector<TimedChange> timeline = {};
 };
 
-LoadedWorld loaded(const Settings& settings) { return loadWorldToRun(shipped(settings.world), settings.controller); }
+LoadedWorld loaded(const Settings& settings) {
+  LoadedWorld world = loadWorldToRun(shipped(settings.world), settings.controller);
+  world.world.timeline = settings.timeline;
+  return world;
+}
 
 RunOptions optionsOf(const Settings& settings, int threads) {
   RunOptions options;
@@ -108,6 +114,58 @@ TEST(DistributedRun, IsEndedOnAllRanksByAnObserverOnTheFirst) {
   const std::string alone = outcomeAlone(settings);
   ASSERT_NE(alone.find("covered"), std::string::npos) << alone;
   EXPECT_EQ(outcomeOnRanks(settings, 3, 1, 10), alone);
+}
+
+/// Takes objects and robots elsewhere in every tenth step, and ends the run in step 65.
+class Rearranging : public Observer {
+ public:
+  void observe(const Environment&) override {}
+  void supervise(Supervisor& supervisor) override {
+    const auto step = supervisor.environment().time().step;
+    if (step == 65) static_cast<void>(supervisor.apply(EndRun{"rearranged"}));
+    if (step % 10 != 0) return;
+    Rng rng(1, RandomPurpose::test, 0, 0, step);
+    const auto& robots = supervisor.environment().robotNames();
+    const Bounds2D& surface = supervisor.environment().world().bounds;
+    for (int i = 0; i < 20; ++i) {
+      const auto& objects = supervisor.environment().objects();
+      const bool is_robot = objects.empty() || rng.below(2) == 0;
+      const std::string name = is_robot ? robots[rng.below(static_cast<std::uint32_t>(robots.size()))]
+                                        : objects[rng.below(static_cast<std::uint32_t>(objects.size()))].name;
+      static_cast<void>(supervisor.apply(PlaceBody{name, rng.uniform(surface.x_min, surface.x_max),
+                                                   rng.uniform(surface.y_min, surface.y_max), rng.uniform(-3, 3)}));
+    }
+  }
+};
+
+TEST(DistributedRun, EqualsARunInOneProcessWhoseObserverRearrangesTheWorld) {
+  ObserverType type{"rearranging", "Rearranges the world.", {}, [](const ObserverSetup&, const ParameterValues&) {
+                      return std::unique_ptr<Observer>(std::make_unique<Rearranging>());
+                    }};
+  type.supervises = true;
+  observers().add(type);
+  for (const char* world : {"open_100", "small_maze"}) {
+    const Settings settings{world, "wander", 100, {"rearranging"}};
+    LocalRun run(loaded(settings), optionsOf(settings, 1));
+    while (!run.isOver()) run.step();
+    EXPECT_EQ(run.environment().time().step, 65u);
+    EXPECT_GT(run.environment().state().interventions_applied, 10u) << world;
+    const std::string alone = outcomeOf(run, true);
+    for (const int ranks : {1, 2, 3, 8}) EXPECT_EQ(outcomeOnRanks(settings, ranks, 1 + ranks % 2, 7), alone) << ranks;
+  }
+}
+
+TEST(DistributedRun, EqualsARunInOneProcessWhoseWorldFileChangesTheWorld) {
+  Settings settings{"open_100", "wander", 60};
+  settings.timeline = {{1, PlaceBody{loaded(settings).fleet.robots[7].info.name, 0.1, 0.2}, {}},
+                       {2, RemoveBody{loaded(settings).fleet.robots[50].info.name}, {}}};
+  LocalRun run(loaded(settings), optionsOf(settings, 1));
+  for (int i = 0; i < settings.steps; ++i) run.step();
+  EXPECT_EQ(run.environment().state().interventions_applied, 2u);
+  const std::string alone = outcomeOf(run, true);
+  for (const int ranks : {2, 5})
+    EXPECT_EQ(outcomeOnRanks(settings, ranks, 1, 7, false), outcomeOf(run, false)) << ranks;
+  EXPECT_EQ(outcomeOnRanks(settings, 3, 2, 7), alone);
 }
 
 TEST(DistributedRun, EndsOnAllRanksAfterTheStepInWhichOneRequestsIt) {

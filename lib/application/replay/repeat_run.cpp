@@ -12,6 +12,7 @@
 #include "replay/replay.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
+#include "run/outputs/intervention_note.h"
 #include "run/outputs/run_note.h"
 #include "run/run_summary.h"
 #include "world/map_reader.h"
@@ -100,12 +101,12 @@ class RunAgain {
     Progress progress;
     auto now = recorded_.next();
     if (now) checkDriven(*now);
-    if (now) enterAndLeave(*now);
+    if (now) enterAndLeave(*now, {}, isOfWorldFile);
     std::uint64_t steps = 0;
+    std::optional<std::string> refused;
     while (now) {
       if (interrupt.isRequested()) throw Interrupted("interrupted; no result");
-      if (const auto difference = firstDifference(*now)) {
-        refusePlacements();
+      if (const auto difference = refused ? refused : firstDifference(*now)) {
         const SimTime time = run_.environment().time();
         verdict_ << "Not the same run. It first differs in step " << time.step << " (" << fixed(time.seconds(), 3)
                  << " s): " << printableText(*difference) << '\n';
@@ -114,7 +115,7 @@ class RunAgain {
       if (progress.due()) progress.show("step " + withCommas(steps) + " is the same …");
       ++steps;
       now = recorded_.next();
-      if (now) step(*now);
+      if (now) refused = step(*now);
     }
     if (steps == 0) {
       throw ConfigError(reader_.readError().value_or("the recording") + "; it has no complete step to compare");
@@ -131,6 +132,7 @@ class RunAgain {
   static RunOptions options(const RunNote& note, const std::vector<std::string>& observers) {
     RunOptions options;
     options.observers = observers;
+    options.observers_supervise = false;
     options.environment.seed = note.seed;
     options.environment.period_s = note.period_s;
     return options;
@@ -209,22 +211,54 @@ class RunAgain {
     }
     return std::nullopt;
   }
-  /// Robots enter the world at their start.
-  void enterAndLeave(const std::vector<RecordedRobot>& next) {
+  /// The interventions of the recording since the last step.
+  std::vector<Intervention> interventions() const {
+    std::vector<Intervention> made;
+    for (const auto& comment : recorded_.comments()) {
+      if (auto note = InterventionNote::parse(comment)) made.push_back(std::move(note->intervention));
+    }
+    return made;
+  }
+  /// The run itself makes those of the world file, when it begins the step.
+  static bool isOfWorldFile(const Intervention& one) { return one.author == kWorldFileAuthor; }
+  /// Whether some intervention places or removes a robot.
+  template <typename Selected>
+  bool isMoved(std::size_t robot, const std::vector<Intervention>& made, const Selected& is_selected) const {
+    const std::string& name = run_.environment().robotNames()[robot];
+    return std::any_of(made.begin(), made.end(), [&](const Intervention& one) {
+      const auto* placed = std::get_if<PlaceBody>(&one.change);
+      const auto* removed = std::get_if<RemoveBody>(&one.change);
+      return is_selected(one) && ((placed && placed->name == name) || (removed && removed->name == name));
+    });
+  }
+  /// Robots enter the world at their start, and leave it, except those that some interventions place or remove.
+  template <typename Selected>
+  void enterAndLeave(const std::vector<RecordedRobot>& next, const std::vector<Intervention>& made,
+                     const Selected& is_selected) {
     Environment& environment = run_.environment();
-    std::vector<std::size_t> absent, entering;
+    std::vector<std::size_t> absent, present;
     for (std::size_t i = 0; i < next.size(); ++i) {
-      if (isAbsent(next[i])) {
-        absent.push_back(i);
-      } else if (environment.state().activity[i] == Activity::absent) {
-        entering.push_back(i);
-      }
+      if (isMoved(i, made, is_selected)) continue;
+      (isAbsent(next[i]) ? absent : present).push_back(i);
     }
     environment.remove(absent);
-    for (const std::size_t i : entering) environment.place(i, environment.fleet().robots[i].world_from_start);
+    for (const std::size_t i : present) environment.enter(i);
   }
-  void step(const std::vector<RecordedRobot>& next) {
-    enterAndLeave(next);
+  /// @return why one cannot be repeated
+  std::optional<std::string> intervene(const std::vector<Intervention>& made) {
+    for (const Intervention& one : made) {
+      if (isOfWorldFile(one)) continue;
+      const std::string fault = run_.environment().apply(one);
+      if (!fault.empty()) return "the intervention of " + one.author + " is impossible now: " + fault;
+    }
+    return std::nullopt;
+  }
+  /// @return why the step cannot be repeated
+  std::optional<std::string> step(const std::vector<RecordedRobot>& next) {
+    const std::vector<Intervention> made = interventions();
+    enterAndLeave(next, made, [](const Intervention&) { return true; });
+    if (auto refused = intervene(made)) return refused;
+    if (!made.empty()) enterAndLeave(next, made, isOfWorldFile);  // also those that were moved before or afterwards
     Environment& environment = run_.environment();
     const auto& robots = environment.fleet().robots;
     for (std::size_t i = 0; i < next.size(); ++i) {
@@ -245,27 +279,17 @@ class RunAgain {
       }
     }
     run_.step();
+    return std::nullopt;
   }
 
   /// Number of steps of the run so far, as its summary states it; the recording also contains the start.
   std::string stepsTaken() const { return withCommas(run_.environment().time().step) + " steps"; }
 
-  /// Explains a difference by placements, which recordings do not contain. Reads the recording to its end, where its
-  /// outcome is. @throws ConfigError if there were any
-  void refusePlacements() {
-    while (recorded_.next()) {
-    }
-    const auto note = RunNote::parse(recorded_.note());
-    const auto placements =
-        note && note->outcome.is_object() ? note->outcome.value("placements", std::uint64_t{0}) : std::uint64_t{0};
-    if (placements == 0) return;
-    throw ConfigError("during the run, robots were placed elsewhere " + withCommas(placements) +
-                      (placements == 1 ? " time" : " times") +
-                      ", as by SIM_SET_POSE or SIM_RESET of an ARCOS program; the recording does not contain " +
-                      "where, so that the run cannot be repeated: record a run without placements");
-  }
-
   bool sameDigest() {
+    if (const auto refused = intervene(interventions())) {  // those that ended the run
+      verdict_ << "Every reading is the same, but at the end " << printableText(*refused) << '\n';
+      return false;
+    }
     const auto note = RunNote::parse(recorded_.note());
     const std::string recorded = note && note->outcome.is_object() ? note->outcome.value("digest", "") : "";
     const std::string now = run_.environment().digest();
@@ -274,7 +298,6 @@ class RunAgain {
       return true;
     }
     if (recorded != now) {
-      refusePlacements();
       verdict_ << "Every reading is the same, but not the digest: recorded " << recorded << ", now " << now << '\n';
       return false;
     }

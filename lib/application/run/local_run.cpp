@@ -157,7 +157,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
       selected_images_(options.pictures_on_request ? static_cast<SelectedImages*>(images_.get()) : nullptr),
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
-      observers_(options.observers, options.environment.seed, options.observers_log) {
+      observers_(options.observers, options.environment.seed, options.observers_log, options.observers_supervise) {
   const auto& robots = environment_.fleet().robots;
   std::shared_ptr<const KnownWorld> known_world;  // made for the first robot that needs it
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -212,9 +212,15 @@ bool LocalRun::dependsOnSeed() const {
                        [](const auto& sensor) { return sensor->isNoisy(); });
   };
   const bool all_are_here = local_robots_.size() == robots.size();
-  return has_drawn_elsewhere_.value_or(!all_are_here) || options_.breakdown_mean_s > 0 ||
-         environment_.world().communication.isRandom() || std::any_of(robots.begin(), robots.end(), is_noisy) ||
-         hasDrawnRandomNumbers();
+  const auto& timeline = environment_.world().timeline;
+  const bool has_random_radio = environment_.world().communication.isRandom() ||
+                                environment_.communication().isRandom() ||
+                                std::any_of(timeline.begin(), timeline.end(), [](const TimedChange& timed) {
+                                  const auto* radio = std::get_if<ChangeRadio>(&timed.change);
+                                  return radio && radio->communication.isRandom();
+                                });
+  return has_drawn_elsewhere_.value_or(!all_are_here) || options_.breakdown_mean_s > 0 || has_random_radio ||
+         std::any_of(robots.begin(), robots.end(), is_noisy) || hasDrawnRandomNumbers();
 }
 
 bool LocalRun::hasDrawnRandomNumbers() const {

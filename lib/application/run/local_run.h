@@ -26,6 +26,8 @@ struct RunOptions {
   std::string controller;
   std::vector<std::string> observers = {};  ///< as TypeChoice::text()
   bool observers_log = true;                ///< whether ObserverSetup::log prints
+  /// Whether observers may change the run: not when their recorded changes are repeated.
+  bool observers_supervise = true;
   /// Mean time until a robot breaks down for good, exponentially distributed: it halts, and its controller is called no
   /// more [simulated s]; 0: none does.
   double breakdown_mean_s = 0;
@@ -133,8 +135,11 @@ class LocalRun {
   const Environment& environment() const { return environment_; }
   GoldOutcome gold() const;  ///< that of the State
   const RunObservers& observers() const { return observers_; }
-  /// Whether the run has reached an end of its own: all robots have halted, or an observer ends it.
-  bool isOver() const { return environment_.state().all_halted_step || observers_.end(); }
+  /// Whether the run has reached an end of its own: all robots have halted, or an observer or an intervention ends it.
+  bool isOver() const {
+    const State& state = environment_.state();
+    return state.ended || state.all_halted_step || observers_.end();
+  }
   /// Whether another seed would give another run: some sensor is noisy, messages are lost, or a controller has drawn a
   /// random number. Assumed for robots driven by another process.
   bool dependsOnSeed() const;

@@ -83,7 +83,8 @@ void makeDetour(Environment& environment, std::uint64_t seed) {
       LocalHardware hardware(environment, i);
       Robot robot(hardware);
       commandAtRandom(robot, seed + 1000, i);
-      if (rng.below(10) == 0) environment.place(i, {rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-3, 3)});
+      const PlaceBody place{robot.name(), rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-3, 3)};
+      if (rng.below(10) == 0) static_cast<void>(environment.apply({"test", place}));
       if (rng.below(20) == 0) environment.remove(i);
       if (rng.below(10) == 0) robot.halt(Activity::found);
     }

@@ -41,8 +41,14 @@ bool readPictures(const std::vector<std::string>& choices) {
                      [](const std::string& choice) { return observers().typeOf(choice).reads_pictures; });
 }
 
-RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging)
-    : seed_(seed), is_logging_(is_logging) {
+bool anySupervises(const std::vector<std::string>& choices) {
+  return std::any_of(choices.begin(), choices.end(),
+                     [](const std::string& choice) { return observers().typeOf(choice).supervises; });
+}
+
+RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging,
+                           bool is_supervising)
+    : seed_(seed), is_logging_(is_logging), is_supervising_(is_supervising) {
   checkObservers(choices);
   for (const auto& choice : choices) {
     const std::string name = TypeChoice::parse(choice).name;
@@ -50,13 +56,14 @@ RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_
     const ParameterValues values = observers().parametersOf(choice);
     auto observer = guarded(choice, [&] { return observers().typeOf(choice).make(setup, values); });
     if (!observer) throw ObserverError("observer '" + choice + "': its type has made none");
-    observers_.push_back({choice, name, std::move(observer)});
+    observers_.push_back({choice, name, std::move(observer), observers().typeOf(choice).supervises});
   }
 }
 
 RunObservers::RunObservers(Fork fork)
     : seed_(fork.original.seed_),
       is_logging_(fork.original.is_logging_),
+      is_supervising_(fork.original.is_supervising_),
       now_s_(fork.original.now_s_),
       end_(fork.original.end_) {
   for (const auto& one : fork.original.observers_) {
@@ -65,7 +72,7 @@ RunObservers::RunObservers(Fork fork)
       throw ConfigError("observer '" + one.choice + "': has no clone(), so that its run cannot be forked; add " +
                         "Observer::clone() to it, or run without it");
     }
-    observers_.push_back({one.choice, one.name, std::move(copy)});
+    observers_.push_back({one.choice, one.name, std::move(copy), one.supervises});
   }
 }
 
@@ -74,7 +81,7 @@ ObserverSetup RunObservers::setupOf(const std::string& name) {
   return {seed_, [this, name](const std::string& line) { logInfo(name, "at " + fixed(now_s_, 3) + " s: " + line); }};
 }
 
-void RunObservers::observe(const Environment& environment) {
+void RunObservers::observe(Environment& environment) {
   now_s_ = environment.time().seconds();
   for (const auto& one : observers_) {
     std::string reason = guarded(one.choice, [&] {
@@ -82,6 +89,13 @@ void RunObservers::observe(const Environment& environment) {
       return one.observer->endReason();
     });
     if (!end_ && !reason.empty()) end_ = {one.name, std::move(reason)};
+  }
+  // After all have observed, so that metrics depend neither on the observers' order nor on who makes the changes.
+  if (!is_supervising_) return;
+  for (const auto& one : observers_) {
+    if (!one.supervises) continue;
+    Supervisor supervisor(environment, "observer " + one.name);
+    guarded(one.choice, [&] { one.observer->supervise(supervisor); });
   }
 }
 

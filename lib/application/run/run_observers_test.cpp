@@ -28,7 +28,25 @@ class Counting : public Observer {
   double calls_ = 0, step_ = 0;
 };
 
-/// Adds the observer `counting` to this program, once.
+/// Moves the gold in step 2, tries what is impossible, and ends the run in step 4.
+class Moving : public Observer {
+ public:
+  void observe(const Environment&) override {}
+  void supervise(Supervisor& supervisor) override {
+    const auto step = supervisor.environment().time().step;
+    const auto& gold = supervisor.environment().objects().back();
+    const auto& pose = gold.body.world_from_body;
+    if (step == 2) fault_ = supervisor.apply(PlaceBody{gold.name, pose.x + 0.01, pose.y});
+    if (step == 3) fault_ = supervisor.apply(RemoveBody{"nothing like it"});
+    if (step == 4) fault_ += supervisor.apply(EndRun{"moved", "it is there"});
+  }
+  std::vector<Metric> metrics() const override { return {{"faults", fault_.empty() ? 0.0 : 1.0}}; }
+
+ private:
+  std::string fault_;
+};
+
+/// Adds the observers of this file to this program, once.
 void addCounting() {
   const auto names = observers().names();
   if (std::find(names.begin(), names.end(), "counting") != names.end()) return;
@@ -39,6 +57,11 @@ void addCounting() {
        [](const ObserverSetup&, const ParameterValues& p) -> std::unique_ptr<Observer> {
          return std::make_unique<Counting>(p["end_step"], p["throw_step"]);
        }});
+  ObserverType moving{"moving", "Moves the gold.", {}, [](const ObserverSetup&, const ParameterValues&) {
+                        return std::unique_ptr<Observer>(std::make_unique<Moving>());
+                      }};
+  moving.supervises = true;
+  observers().add(moving);
 }
 
 /// A run of the small maze in which no robot moves.
@@ -74,6 +97,38 @@ TEST(RunObservers, EndARunWithAReasonInItsSummary) {
   EXPECT_EQ(summary.json()["end_reason"], "counted enough");
   summary.ended_by = EndedBy::interrupt;
   EXPECT_TRUE(summary.json()["ended_by_observer"].is_null()) << "what it would end is over already";
+}
+
+TEST(RunObservers, ThatSuperviseChangeTheRunInTheirNameAndEndItWithAnOutcome) {
+  LocalRun run = runWith({"moving"});
+  const auto before = run.environment().objects().back().body.world_from_body;
+  std::vector<AppliedIntervention> interventions;
+  while (!run.isOver()) {
+    run.step();
+    if (run.environment().time().step == 2) interventions = run.environment().state().interventions;
+  }
+  EXPECT_EQ(run.environment().objects().back().body.world_from_body.x, before.x + 0.01);
+  ASSERT_EQ(interventions.size(), 1u);
+  EXPECT_EQ(interventions[0].step, 3u);
+  EXPECT_EQ(interventions[0].intervention.author, "observer moving");
+  EXPECT_EQ(run.observers().metrics()[0].value, 1) << "what is impossible was answered";
+  EXPECT_EQ(endedByItself(run), EndedBy::intervention);
+  RunSummary summary = RunSummary::of(run);
+  summary.ended_by = endedByItself(run);
+  EXPECT_NE(summary.text().find("ended with the outcome moved: it is there"), std::string::npos) << summary.text();
+  EXPECT_EQ(summary.json()["end_outcome"], "moved");
+}
+
+TEST(RunObservers, DoNotSuperviseARunWhoseRecordedChangesAreRepeated) {
+  addCounting();
+  RunOptions options;
+  options.controller = "still";
+  options.observers = {"moving"};
+  options.observers_supervise = false;
+  LocalRun run(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", "still"), options);
+  for (int i = 0; i < 6; ++i) run.step();
+  EXPECT_EQ(run.environment().state().interventions_applied, 0u);
+  EXPECT_FALSE(run.isOver());
 }
 
 TEST(RunObservers, ContinueInAForkFromTheSameState) {

@@ -43,7 +43,9 @@ constexpr const char* kSeedHadNoEffect =
     " (without effect: nothing in this run was random; --random-starts or --noise on make seeds differ)";
 
 /// @param observer_end RunObservers::end()
-std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::optional<ObserverEnd>& observer_end) {
+/// @param intervention_end State::ended
+std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::optional<ObserverEnd>& observer_end,
+                       const std::optional<RunEnd>& intervention_end) {
   std::string text = "no gold found";
   if (gold.won_by) {
     text = *gold.won_by + " has won after " + fixed(*gold.won_s, 1) + " s";
@@ -58,6 +60,10 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::optional
   if (why == EndedBy::window_closed) text += "; ended by closing the window";
   if (why == EndedBy::observer && observer_end) {
     text += "; ended by " + observer_end->observer + ": " + observer_end->reason;
+  }
+  if (why == EndedBy::intervention && intervention_end) {
+    text += "; ended with the outcome " + printableText(intervention_end->outcome);
+    if (!intervention_end->text.empty()) text += ": " + printableText(intervention_end->text);
   }
   return text;
 }
@@ -80,6 +86,8 @@ const char* nameOf(EndedBy why) {
       return "window_closed";
     case EndedBy::observer:
       return "observer";
+    case EndedBy::intervention:
+      return "intervention";
     case EndedBy::recording_stopped:
       return "recording_stopped";
   }
@@ -87,6 +95,7 @@ const char* nameOf(EndedBy why) {
 }
 
 EndedBy endedByItself(const LocalRun& run) {
+  if (run.environment().state().ended) return EndedBy::intervention;
   if (run.gold().all_halted_s) return EndedBy::all_halted;
   return run.isOver() ? EndedBy::observer : EndedBy::time_limit;
 }
@@ -123,14 +132,19 @@ RunSummary RunSummary::of(const LocalRun& run) {
   summary.messages_sent = messagesSent(state);
   summary.messages_dropped = state.messages_dropped;
   summary.messages_lost = state.messages_lost;
-  summary.placements = state.placements;
+  summary.interventions = state.interventions_applied;
   summary.metrics = run.observers().metrics();
   summary.observer_end = run.observers().end();
+  summary.intervention_end = state.ended;
   return summary;
 }
 
 nlohmann::ordered_json RunSummary::json() const {
   const bool is_ended_by_observer = ended_by == EndedBy::observer && observer_end;
+  const bool is_ended_by_intervention = ended_by == EndedBy::intervention && intervention_end;
+  std::optional<std::string> reason;
+  if (is_ended_by_observer) reason = observer_end->reason;
+  if (is_ended_by_intervention) reason = intervention_end->text;
   return {{"world", world},
           {"seed", seed},
           {"depends_on_seed", depends_on_seed},
@@ -141,7 +155,8 @@ nlohmann::ordered_json RunSummary::json() const {
           {"real_time_factor", realTimeFactor()},
           {"ended_by", nameOf(ended_by)},
           {"ended_by_observer", is_ended_by_observer ? nlohmann::ordered_json(observer_end->observer) : nullptr},
-          {"end_reason", is_ended_by_observer ? nlohmann::ordered_json(observer_end->reason) : nullptr},
+          {"end_outcome", is_ended_by_intervention ? nlohmann::ordered_json(intervention_end->outcome) : nullptr},
+          {"end_reason", orNull(reason)},
           {"digest", digest},
           {"gold_found", gold.found_s.has_value()},
           {"gold_found_by", orNull(gold.found_by)},
@@ -155,7 +170,7 @@ nlohmann::ordered_json RunSummary::json() const {
           {"messages_sent", messages_sent},
           {"messages_dropped", messages_dropped},
           {"messages_lost", lossesJson(messages_lost)},
-          {"placements", placements},
+          {"interventions", interventions},
           {"late", orNull(late)},
           {"metrics", metricsJson(metrics)},
           {"clients", report ? clientsJson(*report) : nlohmann::ordered_json(nullptr)}};
@@ -171,15 +186,12 @@ std::string RunSummary::text() const {
             {"messages", withCommas(messages) +
                              (messages_dropped == 0 ? "" : ", and " + withCommas(messages_dropped) + " dropped") +
                              textOf(messages_lost)}};
+  if (interventions > 0) rows.push_back({"interventions", withCommas(interventions)});
   if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
   rows.push_back({"seed", std::to_string(seed) + (depends_on_seed ? "" : kSeedHadNoEffect)});
   rows.push_back({"digest", digest});
   for (auto& row : metricRows(metrics)) rows.push_back(std::move(row));
-  std::string sentence = sentenceOn(gold, ended_by, observer_end);
-  if (placements > 0) {
-    sentence += "; not reproducible: robots were placed elsewhere " + withCommas(placements) +
-                (placements == 1 ? " time" : " times");
-  }
+  std::string sentence = sentenceOn(gold, ended_by, observer_end, intervention_end);
   if (report) {
     addClients(*report, rows);
     if (!report->hasAllRobots()) sentence += "; INCOMPLETE: steps were taken without some robots, or messages lost";

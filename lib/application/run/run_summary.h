@@ -19,13 +19,15 @@ enum class EndedBy {
   robot_lost,
   window_closed,
   observer,
+  intervention,
   recording_stopped
 };
 
 /// As in JSON: "all_halted", "time_limit"
 const char* nameOf(EndedBy why);
 
-/// Why a run ended that neither a person nor a lost robot has ended: all robots halted, an observer, or the time limit.
+/// Why a run ended that neither a person nor a lost robot has ended: an intervention, all robots halted, an observer,
+/// or the time limit.
 EndedBy endedByItself(const LocalRun& run);
 
 /// By name; null for a metric without a value.
@@ -51,11 +53,12 @@ struct RunSummary {
   std::uint64_t messages_sent = 0;     ///< including those on their way
   std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits on messages in a step
   MessageLosses messages_lost;
-  std::uint64_t placements = 0;             ///< State::placements
+  std::uint64_t interventions = 0;          ///< applied
   std::optional<std::uint64_t> late;        ///< robot-steps whose command came too late; nullopt for a lockstep run
   std::optional<RunReport> report;          ///< of a served run
   std::vector<Metric> metrics;              ///< of the observers
   std::optional<ObserverEnd> observer_end;  ///< RunObservers::end()
+  std::optional<RunEnd> intervention_end;   ///< State::ended
 
   /// Fills the fields derived from the run; the caller sets the rest.
   static RunSummary of(const LocalRun& run);

@@ -34,8 +34,8 @@ class Cameras final : public Sensor {
 
 }  // namespace
 
-void SelectedImages::take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
-                          std::span<const std::uint32_t> robots, std::span<std::string> jpegs) {
+void SelectedImages::take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
+                          std::span<std::string> jpegs) {
   std::vector<std::uint32_t> chosen;
   std::vector<std::size_t> places;  // in `robots`
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -47,7 +47,7 @@ void SelectedImages::take(const CameraView& camera, std::span<const mrpt::math::
   if (chosen.empty()) return;
   std::vector<std::string> taken(chosen.size());
   if (camera.moment.seeds.empty() && camera.moment.turn_radps.empty()) {
-    source_->take(camera, world_from_robot, chosen, taken);
+    source_->take(camera, seen, chosen, taken);
   } else {
     CameraView view = camera;
     view.moment = {};
@@ -55,7 +55,7 @@ void SelectedImages::take(const CameraView& camera, std::span<const mrpt::math::
       view.moment.seeds.push_back(camera.moment.seeds[place]);
       view.moment.turn_radps.push_back(camera.moment.turn_radps[place]);
     }
-    source_->take(view, world_from_robot, chosen, taken);
+    source_->take(view, seen, chosen, taken);
   }
   for (std::size_t i = 0; i < places.size(); ++i) jpegs[places[i]] = std::move(taken[i]);
 }

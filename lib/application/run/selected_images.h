@@ -17,8 +17,8 @@ class SelectedImages final : public ImageSource {
   /// Flags by robot; empty: none. Not while pictures are taken.
   std::vector<std::uint8_t> selected{};
 
-  void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
-            std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override;
+  void take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
+            std::span<std::string> jpegs) override;
   std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors,
                               unsigned pixels_min) override {
     return source_->findBlobs(jpeg, colors, pixels_min);

@@ -71,21 +71,19 @@ struct ServedRobot final : Simulator {
   bool isAbsent() const { return environment.state().activity[index] == Activity::absent; }
   /// Places an absent robot at its start. @return false if that is not free. A robot that has left in this step stays
   /// absent for one, so that a recording shows that it has left.
-  bool enter() {
-    return isAbsent() && left_at_step != environment.time().step &&
-           environment.place(index, environment.fleet().robots[index].world_from_start);
-  }
+  bool enter() { return isAbsent() && left_at_step != environment.time().step && environment.enter(index); }
   void leave() {
     environment.remove(index);
     left_at_step = environment.time().step;
   }
 
   void placeAt(const mrpt::math::TPose2D& pose) {
-    if (environment.place(index, pose)) {
+    const std::string fault = environment.apply({"ARCOS program", PlaceBody{name(), pose.x, pose.y, pose.phi}});
+    if (fault.empty()) {
       if (connection) connection->session().noteMoved();
     } else {
       log("cannot be placed at (" + std::to_string(std::lround(pose.x * kMm)) + ", " +
-          std::to_string(std::lround(pose.y * kMm)) + ") mm: it would overlap something, or the surface's edge");
+          std::to_string(std::lround(pose.y * kMm)) + ") mm: " + fault);
     }
   }
 
@@ -165,12 +163,15 @@ struct ArcosServer::Impl {
 
   bool isFree(std::size_t port) const {
     if (!options.is_factory) return !robots[port]->connection;
-    return std::any_of(robots.begin(), robots.end(), [](const auto& robot) { return robot->isAbsent(); });
+    return std::any_of(robots.begin(), robots.end(), [](const auto& robot) { return !robot->connection; });
   }
   /// The robot for a program that has connected to a port; of a factory, one that enters for it. Null if there is none.
   ServedRobot* robotFor(std::size_t port) {
     if (!options.is_factory) return robots[port]->connection ? nullptr : robots[port].get();
-    const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) { return robot->enter(); });
+    // A supervisor may have removed a robot with a program, or placed one without.
+    const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) {
+      return !robot->connection && (!robot->isAbsent() || robot->enter());
+    });
     return found == robots.end() ? nullptr : found->get();
   }
   void refuse(const AcceptedConnection& accepted) {

@@ -1,12 +1,14 @@
 #include "viewing/recorded_moments.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "recording/recorded_step.h"
 #include "recording/recording_error.h"
 #include "rendering/snapshot_run.h"
+#include "run/outputs/intervention_note.h"
 #include "run/outputs/run_note.h"
 #include "viewing/foreign_recording.h"
 
@@ -40,10 +42,11 @@ class RobosimRecording final : public RecordedMoments {
       auto step = steps_.nextWithoutMeasurements();
       if (!step) break;
       if (moments_.empty()) leaveOutMissing(*step);
+      noteObjects();
       const RunSnapshot snapshot = toSnapshot(std::move(*step));
       paths_.add(snapshot);
       addEvents(events_, world_.fleet, snapshot);
-      moments_.push_back({snapshot.time_s, place});
+      moments_.push_back({snapshot.time_s, place, objects_});
       if (progress.due()) progress.show("reading, " + fixed(moments_.back().time_s, 0) + " s …");
     }
     read_error_ = reader_.readError().value_or("");
@@ -69,6 +72,7 @@ class RobosimRecording final : public RecordedMoments {
     auto step = steps_.next();
     if (step) {
       RunSnapshot snapshot = toSnapshot(std::move(*step));
+      snapshot.objects = requested.objects;
       if (snapshot.time_s == requested.time_s) return snapshot;
     }
     throw RecordingError(file_ + ": has changed since it was opened; open it again");
@@ -78,7 +82,20 @@ class RobosimRecording final : public RecordedMoments {
   struct Moment {
     double time_s;
     std::uint64_t place;  ///< in the file
+    ChangedObjects objects;
   };
+
+  /// Notes what the interventions before the last step that was read have made of the objects.
+  void noteObjects() {
+    for (const auto& comment : steps_.comments()) {
+      if (auto all = objectsIn(comment)) objects_ = std::move(*all);
+      const auto note = InterventionNote::parse(comment);
+      if (!note) continue;
+      const auto& before = objects_.orThose(world_.world.objects);
+      std::vector<WorldObject> after = withChange(before, note->intervention.change);
+      if (after != before) objects_ = ChangedObjects(std::move(after));
+    }
+  }
 
   static std::vector<RobotInfo> robotsOf(const LoadedWorld& world) {
     std::vector<RobotInfo> robots;
@@ -98,6 +115,7 @@ class RobosimRecording final : public RecordedMoments {
   RecordedSteps steps_;
   std::vector<Moment> moments_;
   std::vector<double> times_;
+  ChangedObjects objects_;  ///< after the last moment
   RunPaths paths_;
   RunEvents events_;
   std::string read_error_;

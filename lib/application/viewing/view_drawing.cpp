@@ -17,11 +17,11 @@ void ViewDrawing::make(AbsentRobots absent) {
   if (std::any_of(panes.begin(), panes.end(), [](const Pane& pane) { return pane.is_3d; })) {
     *renderer = std::make_unique<OffscreenRenderer>(world.world, world.fleet);
   }
-  const Panes::Draw3d draw_3d = [renderer, &world](
-                                    const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                                    std::span<const mrpt::math::TPose2D> world_from_robot, DepthBuffer* depth) {
+  const Panes::Draw3d draw_3d = [renderer, &world](const CameraInfo& camera,
+                                                   const mrpt::math::TPose3D& world_from_camera, const SeenWorld& seen,
+                                                   DepthBuffer* depth) {
     if (!*renderer) *renderer = std::make_unique<OffscreenRenderer>(world.world, world.fleet);
-    return (*renderer)->picture(camera, world_from_camera, world_from_robot, depth);
+    return (*renderer)->picture(camera, world_from_camera, seen, depth);
   };
   const auto layers = panes_ ? panes_->layers() : TopViewLayers{};
   const auto look = panes_ ? panes_->look() : Panes::Look{};

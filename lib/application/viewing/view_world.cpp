@@ -34,7 +34,7 @@ class WorldView final : public ViewSource {
 
 RunSnapshot snapshotOf(const Environment& environment) {
   const State& state = environment.state();
-  RunSnapshot snapshot{state.time.step, state.time.seconds(), {}};
+  RunSnapshot snapshot{state.time.step, state.time.seconds(), {}, state.objects};
   for (std::size_t i = 0; i < environment.robotCount(); ++i) {
     snapshot.robots.push_back({state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0,
                                state.activity[i], state.readings[i]});

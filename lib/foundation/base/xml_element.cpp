@@ -31,6 +31,8 @@ std::optional<Number> parsed(const std::string& text) {
 
 class Printer : public tinyxml2::XMLPrinter {
  public:
+  explicit Printer(bool is_compact) : tinyxml2::XMLPrinter(nullptr, is_compact) {}
+
   /// As PushAttribute(), but writes white space other than blanks as character references: parsers turn it into blanks.
   void pushAttribute(const std::string& name, const std::string& value) {
     Write((" " + name + "=\"").c_str());
@@ -64,12 +66,12 @@ class Printer : public tinyxml2::XMLPrinter {
   }
 };
 
-void push(Printer& printer, const XmlElement& element) {
-  printer.OpenElement(element.name.c_str());
+void push(Printer& printer, const XmlElement& element, bool is_compact) {
+  printer.OpenElement(element.name.c_str(), is_compact);
   for (const auto& [name, value] : element.attributes) printer.pushAttribute(name, value);
   if (!element.text.empty()) printer.PushText(element.text.c_str());
-  for (const auto& child : element.children) push(printer, child);
-  printer.CloseElement();
+  for (const auto& child : element.children) push(printer, child, is_compact);
+  printer.CloseElement(is_compact);
 }
 
 }  // namespace
@@ -87,9 +89,15 @@ std::string readXmlText(const std::filesystem::path& file) {
 XmlElement readXmlFile(const std::filesystem::path& file) { return parseXml(readXmlText(file), file.string()); }
 
 std::string toXml(const XmlElement& root) {
-  Printer printer;
+  Printer printer(false);
   printer.PushHeader(false, true);
-  push(printer, root);
+  push(printer, root, false);
+  return printer.CStr();
+}
+
+std::string toXmlLine(const XmlElement& root) {
+  Printer printer(true);
+  push(printer, root, true);
   return printer.CStr();
 }
 

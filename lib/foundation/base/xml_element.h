@@ -40,6 +40,8 @@ std::string readXmlText(const std::filesystem::path& file);
 
 /// The element as an XML document, indented by two blanks, with a final newline.
 std::string toXml(const XmlElement& root);
+/// The element alone on one line.
+std::string toXmlLine(const XmlElement& root);
 
 /// Parses a whole text as a number; nullopt when it is not a number. Numbers beyond a double's range become infinite.
 std::optional<double> parseNumber(const std::string& text);

@@ -133,6 +133,7 @@ Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, con
 }
 
 Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
 Solid Scene::solid(BodyId body) const { return index_->item(body).solid(); }

@@ -37,6 +37,7 @@ class Scene {
   /// @param area region that the index covers efficiently; solids beyond it are found too
   Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area);
   Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
   std::size_t stationaryCount() const { return stationary_count_; }

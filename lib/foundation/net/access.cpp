@@ -23,7 +23,8 @@ constexpr auto kPollPeriod = 1s;
 grpc::Status invalidToken(const std::string& what) { return errorStatus(v1::ERROR_REASON_TOKEN_INVALID, what); }
 
 /// Description of a token's role for the text of a refusal.
-std::string purposeOf(const TokenHolder& holder) {
+/// @param right that is refused
+std::string purposeOf(const TokenHolder& holder, Right right) {
   switch (holder.role) {
     case Role::viewer:
       return "has the role viewer, which permits only to watch; use another";
@@ -31,10 +32,14 @@ std::string purposeOf(const TokenHolder& holder) {
       return "has the role robot, which permits only to drive " + listed(holder.robots) + "; use another";
     case Role::geometry:
       return "has the role geometry, which permits only 'robosim geometry'; use another";
+    case Role::supervisor:
+      return "has the role supervisor, which permits only to watch and to change the run; use another";
     case Role::operate:
       break;
   }
-  return "has the role operator, which does not permit geometry workers; use one of the role geometry";
+  return right == Right::work
+             ? "has the role operator, which does not permit geometry workers; use one of the role geometry"
+             : "has the role operator, which does not permit to change the run; use one of the role supervisor";
 }
 
 bool isExpired(const TokenHolder& holder, Time now) { return holder.expires && now >= *holder.expires; }
@@ -143,7 +148,7 @@ grpc::Status Access::check(const Identity& client, Right right, std::span<const 
                         " has expired; request another from the operator of the environment");
   }
   if (!permits(holder->role, right)) {
-    return errorStatus(v1::ERROR_REASON_PERMISSION_DENIED, "the token " + purposeOf(*holder));
+    return errorStatus(v1::ERROR_REASON_PERMISSION_DENIED, "the token " + purposeOf(*holder, right));
   }
   if (holder->role != Role::robot) return grpc::Status::OK;
   for (const auto& robot : robots) {

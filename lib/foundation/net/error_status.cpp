@@ -43,6 +43,7 @@ constexpr std::array kReasons{
     Reason{v1::ERROR_REASON_TOO_MANY_MESSAGES, StatusCode::INVALID_ARGUMENT},
     Reason{v1::ERROR_REASON_INTERNAL, StatusCode::INTERNAL},
     Reason{v1::ERROR_REASON_RECORDING_UNAVAILABLE, StatusCode::FAILED_PRECONDITION},
+    Reason{v1::ERROR_REASON_CHANGE_REFUSED, StatusCode::FAILED_PRECONDITION},
 };
 static_assert(kReasons.size() == v1::ErrorReason_ARRAYSIZE - 1, "each reason has a code");
 

@@ -64,7 +64,8 @@ struct RoleName {
   Role role;
 };
 constexpr std::array kRoleNames{RoleName{"viewer", Role::viewer}, RoleName{"robot", Role::robot},
-                                RoleName{"geometry", Role::geometry}, RoleName{"operator", Role::operate}};
+                                RoleName{"geometry", Role::geometry}, RoleName{"operator", Role::operate},
+                                RoleName{"supervisor", Role::supervisor}};
 
 /// Reads the next word, which may be in double quotes.
 bool readWord(std::istream& words, std::string& word, bool& is_quoted) {
@@ -110,7 +111,9 @@ bool permits(Role role, Right right) {
     case Role::geometry:
       return right == Right::work;
     case Role::operate:
-      return right != Right::work;
+      return right != Right::work && right != Right::supervise;
+    case Role::supervisor:
+      return right == Right::supervise || right == Right::look;
   }
   return false;
 }

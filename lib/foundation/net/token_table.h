@@ -10,17 +10,19 @@ namespace robosim {
 
 /// Right to a class of actions.
 enum class Right {
-  look,     ///< watch the run, and query its status
-  drive,    ///< drive robots
-  work,     ///< compute part of each step: the results become part of the run
-  operate,  ///< start, pause, speed, load, stop
+  look,       ///< watch the run, and query its status
+  drive,      ///< drive robots
+  work,       ///< compute part of each step: the results become part of the run
+  operate,    ///< start, pause, speed, load, stop
+  supervise,  ///< change the run from outside: place, add, remove (world/intervention.h)
 };
 
 /// Role of a token.
-enum class Role { viewer, robot, geometry, operate };
+enum class Role { viewer, robot, geometry, operate, supervisor };
 
 /// Whether tokens of a role have a right. Tokens of the role robot may drive only the robots named in their line. The
-/// role operate has every right except `work`: only geometry workers contribute results to a run.
+/// role operate has every right except `work` and `supervise`: only geometry workers contribute results to a run, and
+/// only supervisors change what has happened in it. These may also watch.
 bool permits(Role role, Right right);
 
 /// SHA-256 of a token: all have the same length, and no token is kept in memory.
@@ -42,9 +44,10 @@ struct TokenHolder {
 ///     TOKEN ROLE [ROBOT…] [name=NAME] [expires=DATE]
 ///
 /// TOKEN: 16 or more printable ASCII characters without blanks. ROLE: viewer, robot (with one or more robots, in double
-/// quotes if their names have blanks or '='), geometry, or operator. NAME: 1 to 64 of A-Z a-z 0-9 . _ -; without it a
-/// token is named after its line, "line-3". DATE: 2027-01-31, the last day (UTC) on which the token is valid, or
-/// 2027-01-31T18:00:00Z, the time from which on it is refused. Empty lines and those that begin with # are ignored.
+/// quotes if their names have blanks or '='), geometry, operator, or supervisor. NAME: 1 to 64 of A-Z a-z 0-9 . _ -;
+/// without it a token is named after its line, "line-3". DATE: 2027-01-31, the last day (UTC) on which the token is
+/// valid, or 2027-01-31T18:00:00Z, the time from which on it is refused. Empty lines and those that begin with # are
+/// ignored.
 class TokenTable {
  public:
   /// @param file name of the file for errors. No error quotes a token.

@@ -112,11 +112,12 @@ struct RawlogWriter::Impl {
     std::vector<Readings> readings;
     std::vector<TPose2D> world_from_robot;
     std::vector<Command> commands;
+    std::vector<std::string> comments;
   };
 
   void submitBatch();
   void record(const Step&);
-  void comment(const std::string& text);
+  void comment(const std::string& text, const SimTime& time);
 
   RawlogFormat format;
   std::deque<RobotSerializer> serializers;
@@ -137,6 +138,7 @@ void RawlogWriter::Impl::submitBatch() {
 }
 
 void RawlogWriter::Impl::record(const Step& step) {
+  for (const auto& text : step.comments) comment(text, step.readings.empty() ? SimTime() : step.readings[0].time);
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
     RobotSerializer& serializer = serializers[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
@@ -158,11 +160,11 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (auto& output : outputs) output->flush(kChunkBytes);
 }
 
-/// @pre the worker thread is idle
-void RawlogWriter::Impl::comment(const std::string& text) {
+/// @pre called by the worker thread, or while it is idle
+void RawlogWriter::Impl::comment(const std::string& text, const SimTime& time) {
   if (text.empty()) return;
   const auto comment = mrpt::obs::CObservationComment::Create();
-  comment->timestamp = timestampOf(last);
+  comment->timestamp = timestampOf(time);
   comment->text = text;
   for (auto& output : outputs) {
     if (format == RawlogFormat::observations) {
@@ -203,13 +205,13 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
     Output& output = *impl_->outputs[format == RawlogFormat::observations ? 0 : i];
     impl_->serializers.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
   }
-  impl_->comment(note);
+  impl_->comment(note, start);
 }
 
 RawlogWriter::~RawlogWriter() = default;
 
 void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot,
-                         std::span<const Command> commands) {
+                         std::span<const Command> commands, std::span<const std::string> comments) {
   assert(readings.size() == impl_->serializers.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
   assert(commands.empty() || commands.size() == readings.size());
@@ -217,14 +219,16 @@ void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPo
   step.readings.assign(readings.begin(), readings.end());
   step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   step.commands.assign(commands.begin(), commands.end());
+  step.comments.assign(comments.begin(), comments.end());
   if (!readings.empty()) impl_->last = readings[0].time;
   if (impl_->filled == impl_->filling.size()) impl_->submitBatch();
 }
 
-void RawlogWriter::close(const std::string& note) {
+void RawlogWriter::close(const std::string& note, std::span<const std::string> comments) {
   impl_->submitBatch();
   impl_->worker.wait();
-  impl_->comment(note);
+  for (const auto& text : comments) impl_->comment(text, impl_->last);
+  impl_->comment(note, impl_->last);
   for (auto& output : impl_->outputs) output->flush(0);
   // No older file is replaced before all files are on the disk.
   for (auto& output : impl_->outputs) output->file.finish();

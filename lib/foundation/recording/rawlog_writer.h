@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <mrpt/math/TPose2D.h>
@@ -52,13 +53,15 @@ class RawlogWriter {
   /// @param readings one per robot, in the constructor's order.
   /// @param world_from_robot true pose of each robot; empty if unknown.
   /// @param commands executed by the robots in this step; empty if unknown.
+  /// @param comments texts that precede the step's observations, each as a CObservationComment
   /// @throws RecordingError when the disk is full or fails. An earlier file of that name is unchanged.
   void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
-             std::span<const Command> commands = {});
+             std::span<const Command> commands = {}, std::span<const std::string> comments = {});
   /// Finishes the recording, and renames it to its name.
   /// @param note last entry of each file; empty for none
+  /// @param comments texts that precede the note
   /// @throws RecordingError as write() does.
-  void close(const std::string& note = "");
+  void close(const std::string& note = "", std::span<const std::string> comments = {});
 
   /// What a recording of this name would create: its files, and with external images their folders.
   static std::vector<std::filesystem::path> pathsOf(const std::filesystem::path& file,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -63,6 +64,7 @@ CObservation::Ptr RecordedSteps::nextRobotObservation() {
   while (auto observation = reader_.next()) {
     if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(observation)) {
       note_ = comment->text;
+      comments_of_next_.push_back(comment->text);
     } else if (!Label::parse(observation->sensorLabel).robot.empty()) {
       lookahead_position_ = reader_.position();
       return observation;
@@ -78,6 +80,7 @@ void RecordedSteps::seek(std::uint64_t position) {
   const bool is_known = place != places_.end() && place->position == position;
   for (std::size_t robot = 0; robot < robots_.size(); ++robot) forget(robot);
   reader_.seek(is_known ? place->first : position);
+  comments_of_next_.clear();
   lookahead_ = nextRobotObservation();
   while (lookahead_position_ < position && next()) {
   }
@@ -88,6 +91,7 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() { return next(tr
 std::optional<std::vector<RecordedRobot>> RecordedSteps::nextWithoutMeasurements() { return next(false); }
 
 std::optional<std::vector<RecordedRobot>> RecordedSteps::next(bool has_measurements) {
+  comments_ = std::exchange(comments_of_next_, {});
   if (!lookahead_) return std::nullopt;
   const auto time = lookahead_->timestamp;
   const double steps = secondsSinceStart(time) / period_s_;

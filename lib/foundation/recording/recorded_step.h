@@ -57,6 +57,9 @@ class RecordedSteps {
 
   /// The last note read so far; empty for none.
   const std::string& note() const { return note_; }
+  /// Texts of the comments between the step that next() has returned last and the one before; after the end of the
+  /// recording, of those behind the last step.
+  const std::vector<std::string>& comments() const { return comments_; }
 
  private:
   /// Observations of one robot and one step, by the sensor part of their labels.
@@ -90,6 +93,7 @@ class RecordedSteps {
       with_rates_;             ///< robots and sensors that do not measure in every step
   std::vector<Place> places_;  ///< ascending; empty if no sensor has a rate
   std::string note_;
+  std::vector<std::string> comments_, comments_of_next_;
   mrpt::obs::CObservation::Ptr lookahead_;  ///< first observation of the next step
   std::uint64_t lookahead_position_ = 0;
 };

@@ -68,7 +68,7 @@ TEST(AbsentRobot, LeavesNoTraceInTheDigestOfAVisitBetweenTwoSteps) {
     environment.remove(1);
     environment.step();
     if (visits) {  // at its start, where it was before it drove
-      EXPECT_TRUE(environment.place(1, {1, 0, 0}));
+      EXPECT_TRUE(environment.enter(1));
       environment.remove(1);
     }
     environment.step();
@@ -88,19 +88,17 @@ TEST(AbsentRobot, ChangesTheDigestByItsAbsence) {
   EXPECT_NE(digest_without({0}), digest_without({}));
 }
 
-TEST(AbsentRobot, CountsAsPlacedUnlessItEntersAtItsStart) {
+TEST(AbsentRobot, EntersAtItsStartWithoutAnIntervention) {
   const TwoDiscs discs;
   Environment& environment = *discs.environment;
+  EXPECT_FALSE(environment.enter(1)) << "it is in the world";
   environment.remove(1);
-  EXPECT_TRUE(environment.place(1, {1, 0, 0}));
-  EXPECT_EQ(environment.state().placements, 0u);
-  EXPECT_FALSE(environment.place(1, {0, 0, 0})) << "occupied";
-  EXPECT_EQ(environment.state().placements, 0u);
-  EXPECT_TRUE(environment.place(1, {1, 0, 0}));
-  EXPECT_EQ(environment.state().placements, 1u) << "an active robot, whose odometry continues";
+  EXPECT_TRUE(environment.enter(1));
+  EXPECT_EQ(environment.state().interventions_applied, 0u);
   environment.remove(1);
-  EXPECT_TRUE(environment.place(1, {2, 0, 0}));
-  EXPECT_EQ(environment.state().placements, 2u);
+  EXPECT_EQ(environment.apply({"test", PlaceBody{"first", 1, 0}}), "");
+  EXPECT_FALSE(environment.enter(1)) << "the first robot is there";
+  EXPECT_EQ(environment.state().interventions_applied, 1u);
 }
 
 TEST(AbsentRobot, NeitherMovesNorReceivesMessages) {
@@ -128,9 +126,10 @@ TEST(AbsentRobot, ComesBackAtRestWithBlankReadingsWhereItIsFree) {
   EXPECT_NEAR(odometry().odom_from_robot.x, 0.5, 1e-9);
   environment.remove(1);
   environment.step();
-  EXPECT_FALSE(environment.place(1, {0.3, 0, 0})) << "the first robot is there";
+  EXPECT_EQ(environment.apply({"test", PlaceBody{"second", 0.3, 0}}),
+            "'second' would overlap 'first'; choose another place");
   EXPECT_EQ(environment.state().activity[1], Activity::absent);
-  EXPECT_TRUE(environment.place(1, {-2, 1, 0}));
+  EXPECT_EQ(environment.apply({"test", PlaceBody{"second", -2, 1}}), "");
   EXPECT_EQ(environment.state().activity[1], Activity::active);
   environment.step();
   EXPECT_EQ(environment.state().world_from_robot[1].x, -2) << "the earlier command has no effect";

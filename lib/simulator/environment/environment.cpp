@@ -50,8 +50,17 @@ void Environment::checkWin(std::size_t robot) { impl_->state.win_requests[robot]
 
 void Environment::countDroppedMessages(std::uint64_t messages) { impl_->state.messages_dropped += messages; }
 
-bool Environment::place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
-  return impl_->place(robot, world_from_robot);
+bool Environment::enter(std::size_t robot) { return impl_->enter(robot); }
+
+World Environment::presentWorld() const {
+  World present = world();
+  present.objects = objects();
+  return present;
+}
+
+const Communication& Environment::communication() const {
+  const auto& changed = impl_->state.communication;
+  return changed ? *changed : world().communication;
 }
 
 void Environment::remove(std::span<const std::size_t> robots) { impl_->remove(robots); }

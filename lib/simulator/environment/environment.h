@@ -34,6 +34,7 @@ class StepPhases;
 /// from it, and so does another environment of the same model.
 ///
 /// A time step:
+///  0. applies the changes of World::timeline that are due;
 ///  1. takes each robot's last command;
 ///  2. authorises and executes the moves. The rule is order-independent: (a) each robot's path is clipped at the first
 ///     contact with anything stationary, with the surface's edge, and with the position at which every other robot
@@ -94,16 +95,30 @@ class Environment {
   /// Counts messages that a robot's process has not sent because of kMaxMessagesSent.
   void countDroppedMessages(std::uint64_t messages);
 
-  /// Places a robot elsewhere between two steps, as a person does who lifts it. Its speed and odometry are unchanged,
-  /// and the readings are those of the last step. An absent robot becomes active, at rest and with blank readings.
-  /// Recordings do not contain placements, except that a robot enters at its start; State::placements counts them.
-  /// @return false, without a change, if the robot would not be entirely on the surface, or would overlap something
-  bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot);
+  /// Changes the run from outside, between two steps; the next step is the first with the change. The readings are
+  /// those of the last step. The change is part of the run: of State::interventions, which recordings contain, and of
+  /// the digest. Not thread-safe.
+  /// @return what is wrong, and how to fix it, without a change; empty when it is applied
+  [[nodiscard]] std::string apply(const Intervention& intervention);
+  /// The same for one that another environment of this run has applied, in the same state: it is not checked.
+  void applyAgain(const Intervention& intervention);
+  /// The objects at present: those of the world, as interventions have changed them. Valid until the next change.
+  const std::vector<WorldObject>& objects() const { return state().objects.orThose(world().objects); }
+  /// A copy of the world with its present objects.
+  World presentWorld() const;
+  /// Limits and errors of the radio at present.
+  const Communication& communication() const;
+
+  /// Puts an absent robot at its start, between two steps: it becomes active, at rest and with blank readings.
+  /// Recordings contain it by its readings.
+  /// @return false, without a change, if the robot is not absent, or would overlap something
+  bool enter(std::size_t robot);
   /// Takes robots out of the world between two steps (Activity::absent): nothing collides with them or senses them,
   /// their commands and messages have no effect, they receive none, and their readings are blank.
   void remove(std::span<const std::size_t> robots);
   void remove(std::size_t robot) { remove({&robot, 1}); }
-  /// Number of robots placed or removed so far, by which a replica detects that its poses are no longer valid.
+  /// Number of robots and objects placed, added, changed (also in their activity) or removed so far, by which a replica
+  /// detects that its state is no longer valid.
   std::uint64_t poseChanges() const;
   /// Measures, in the present state, with a sensor that is not part of the model. It changes no state.
   /// @param robots in ascending order @param readings by robot: replaces measurement 0, which must be a previous one of

@@ -67,11 +67,11 @@ struct Environment::Impl {
         images(the_images),
         workers(threads),
         state(std::move(the_state)),
-        bodies(*model),
+        bodies(*model, state.objects.orThose(model->world.objects)),
         scene(bodies.scene()),
         move_authorisation(ofRobots(fleet, moverOf), model->world.bounds),
         message_router(ofRobots(fleet, [](const auto& robot) { return robot.info.name; }), model->world.communication),
-        referee(model->world),
+        referee(state.objects.orThose(model->world.objects), model->world.win_distance_m),
         robot_groups(fleet, model->period_s),
         limits(ofRobots(fleet, [](const auto& robot) { return robot.info.limits; })),
         known(fleet.robots.size()),
@@ -86,6 +86,7 @@ struct Environment::Impl {
   /// After the state was replaced.
   void noteState() {
     noteAbsentRobots();
+    message_router.setCommunication(state.communication.value_or(model->world.communication));
     may_have_messages = true;
     may_send.resize(state.outboxes.size());
     std::transform(state.outboxes.begin(), state.outboxes.end(), may_send.begin(),
@@ -185,17 +186,50 @@ struct Environment::Impl {
     });
   }
 
-  bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
-    if (!bodies.isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m}))
-      return false;
-    if (!state.isAbsent(robot) || world_from_robot != fleet.robots[robot].world_from_start) ++state.placements;
+  /// @name Interventions (interventions.cpp)
+  ///@{
+  struct ApplyChange;
+  /// Applies a change. @return what is wrong, and how to fix it; empty when it is applied
+  std::string apply(const Intervention& intervention, bool is_checked);
+  /// Applies the changes of the world file that are due before the next step. One that is refused is logged.
+  void applyTimeline();
+  ///@}
+
+  bool enter(std::size_t robot) {
+    if (!state.isAbsent(robot)) return false;
+    const auto& start = fleet.robots[robot].world_from_start;
+    if (!isFreeFor(robot, start)) return false;
+    moveRobot(robot, start);
+    return true;
+  }
+
+  bool isFreeFor(std::size_t robot, const mrpt::math::TPose2D& pose) const {
+    const Solid disc = bodies.discOf(robot, {pose.x, pose.y});
+    return model->world.bounds.covers(boundsOf(disc.outline)) &&
+           bodies.overlapped(disc, scene.movingBody(robot)) == kNoBody;
+  }
+
+  void moveRobot(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
     state.world_from_robot[robot] = world_from_robot;
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
     if (state.isAbsent(robot)) resetRobot(state, robot, Activity::active, *fleet.robots[robot].model);
     ++pose_changes;
     noteAbsentRobots();
     placeBodies();
-    return true;
+  }
+
+  void setObjects(std::vector<WorldObject> objects) {
+    state.objects = ChangedObjects(std::move(objects));
+    ++pose_changes;
+    useObjects();
+    placeBodies();
+  }
+
+  /// After State::objects were replaced.
+  void useObjects() {
+    const auto& objects = state.objects.orThose(model->world.objects);
+    bodies.setObjects(objects);
+    referee = Referee(objects, model->world.win_distance_m);
   }
 
   void remove(std::span<const std::size_t> robots) {
@@ -211,7 +245,11 @@ struct Environment::Impl {
   }
 
   void begin() {
+    if (!model->world.timeline.empty()) applyTimeline();
     ++state.time.step;
+    if (!state.interventions.empty()) {
+      std::erase_if(state.interventions, [&](const auto& applied) { return applied.step < state.time.step; });
+    }
     clearInboxes();
     takeCommands();
     move_authorisation.begin(workers, known, paths);
@@ -301,7 +339,9 @@ struct Environment::Impl {
 
   void restore(const State& saved) {
     requireSameShape(saved, state);
+    const bool has_same_objects = saved.objects.isSameList(state.objects);
     state = saved;
+    if (!has_same_objects) useObjects();
     noteState();
     placeBodies();
   }

@@ -15,6 +15,17 @@ namespace {
 /// Exceeds the rounding errors of a distance [m]: a search with it finds all robots that RadioChannel may reach.
 constexpr double kSearchSlack_m = 1e-6;
 
+/// Usually at the end: earlier only when the delay has become shorter, or for MessageRouter::receiveNext().
+void insertInOrder(MessageInFlight arriving, std::vector<MessageInFlight>& in_flight) {
+  const auto is_before = [](const MessageInFlight& a, const MessageInFlight& b) {
+    return std::tie(a.due_step, a.from) < std::tie(b.due_step, b.from);
+  };
+  const auto place = in_flight.empty() || !is_before(arriving, in_flight.back())
+                         ? in_flight.end()
+                         : std::upper_bound(in_flight.begin(), in_flight.end(), arriving, is_before);
+  in_flight.insert(place, std::move(arriving));
+}
+
 }  // namespace
 
 /// One call of deliver().
@@ -64,11 +75,7 @@ void MessageRouter::broadcast(std::size_t from, const std::string& text, Outbox&
 void MessageRouter::receiveNext(const SimTime& now, std::uint32_t to, std::uint32_t from, const std::string& text,
                                 std::vector<MessageInFlight>& in_flight) const {
   requireShort(from, names_[to], text);
-  const MessageInFlight arriving{from, to, now.step + 1, text};
-  const auto is_before = [](const MessageInFlight& a, const MessageInFlight& b) {
-    return std::tie(a.due_step, a.from) < std::tie(b.due_step, b.from);
-  };
-  in_flight.insert(std::upper_bound(in_flight.begin(), in_flight.end(), arriving, is_before), arriving);
+  insertInOrder({from, to, now.step + 1, text}, in_flight);
 }
 
 void MessageRouter::requireShort(std::size_t from, const std::string& to, const std::string& text) const {
@@ -121,7 +128,7 @@ void MessageRouter::transmit(std::uint32_t from, std::uint32_t to, std::size_t i
       break;
     case MessageFate::arrives:
       if (const std::uint64_t delay = delaySteps(communication_, delivery.now.period_s); delay > 0) {
-        delivery.in_flight.push_back({from, to, delivery.now.step + delay, std::forward<Text>(text)});
+        insertInOrder({from, to, delivery.now.step + delay, std::forward<Text>(text)}, delivery.in_flight);
       } else {
         receive(from, to, std::forward<Text>(text), delivery);
       }

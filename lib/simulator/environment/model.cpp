@@ -57,7 +57,7 @@ void add(Digest& digest, const World& world) {
   // Without effect on a run: names, the type of the surface, the origin, and the distance of random starts. The robots
   // are in the fleet, which has those of scatters, too, and the starts; of maps, the solids have an effect.
   const auto& [name, surface_type, unit_m, bounds, communication, win_distance_m, start_distance_m, objects, maps,
-               robots, scatters, origin] = world;
+               robots, scatters, timeline, origin] = world;
   const auto& [range_m, loss_probability, wall_range_m, wall_loss, burst_gap_s, burst_s, burst_loss, delay_s, rate_hz] =
       communication;
   for (const double value : {unit_m, bounds.x_min, bounds.x_max, bounds.y_min, bounds.y_max, range_m.value_or(-1),
@@ -70,6 +70,10 @@ void add(Digest& digest, const World& world) {
   digest.add(objects.size());
   for (const auto& object : objects) add(digest, object);
   for (const auto& solid : stationarySolids(world)) add(digest, solid);
+  for (const auto& timed : timeline) {
+    digest.add(timed.time_s);
+    add(digest, changeText(timed.change));
+  }
 }
 
 void add(Digest& digest, const FleetRobot& robot) {

@@ -4,17 +4,31 @@
 
 namespace robosim {
 
-PlacedBodies::PlacedBodies(const Model& model)
+PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& objects)
     : model_(model),
-      scene_(stationarySolids(model.world), model.fleet.robots.size(), model.world.bounds),
+      scene_(stationarySolids(objects, model.world.maps), model.fleet.robots.size(), model.world.bounds),
       frames_(model.fleet.robots.size()) {
-  const auto& objects = model.world.objects;
-  const auto& robots = model.fleet.robots;
-  robot_bodies_.reserve(robots.size());
-  for (const auto& robot : robots) {
+  robot_bodies_.reserve(model.fleet.robots.size());
+  for (const auto& robot : model.fleet.robots) {
     CompactBody& compact = robot_bodies_.emplace_back(CompactBody{{}, robot.body.heights()});
-    if (const auto* cylinder = std::get_if<Cylinder>(&robot.body.shape)) compact.disc_radius_m = cylinder->radius_m;
+    if (const auto* cylinder = std::get_if<Cylinder>(&robot.body.shape)) {
+      compact.disc_radius_m = cylinder->radius_m;
+    } else {
+      beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
+    }
   }
+  addProperties(objects);
+}
+
+void PlacedBodies::setObjects(const std::vector<WorldObject>& objects) {
+  scene_ = Scene(stationarySolids(objects, model_.world.maps), model_.fleet.robots.size(), model_.world.bounds);
+  heat_sources_.clear();
+  reflectivity_.clear();
+  addProperties(objects);
+}
+
+void PlacedBodies::addProperties(const std::vector<WorldObject>& objects) {
+  const auto& robots = model_.fleet.robots;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const auto id = static_cast<BodyId>(i);
     const auto& pose = objects[i].body.world_from_body;
@@ -69,14 +83,25 @@ Solid PlacedBodies::solidOf(std::size_t robot, const mrpt::math::TPose2D& world_
   return body.solid();
 }
 
-bool PlacedBodies::isFree(std::size_t robot, const Circle& disc) const {
-  if (!model_.world.bounds.covers(boundsOf(disc))) return false;
-  const Solid solid{disc, robot_bodies_[robot].heights};
+Solid PlacedBodies::discOf(std::size_t robot, const mrpt::math::TPoint2D& center) const {
+  return {Circle{center, model_.fleet.robots[robot].info.radius_m}, robot_bodies_[robot].heights};
+}
+
+BodyId PlacedBodies::overlapped(const Solid& solid, BodyId except) const {
+  const auto as_obstacle = [&](BodyId body) {
+    Solid obstacle = scene_.solid(body);
+    const auto* box = std::get_if<OrientedBox>(&obstacle.outline);
+    if (!box || static_cast<std::size_t>(body) < scene_.stationaryCount()) return obstacle;
+    return discOf(scene_.movingIndex(body), box->center);
+  };
   std::vector<BodyId> near;
-  scene_.findBodies(boundsOf(disc), near);
-  return std::none_of(near.begin(), near.end(), [&](BodyId body) {
-    return body != scene_.movingBody(robot) && overlap(solid, scene_.solid(body));
-  });
+  Bounds2D area = boundsOf(solid.outline);
+  area = {area.x_min - beyond_body_m_, area.x_max + beyond_body_m_, area.y_min - beyond_body_m_,
+          area.y_max + beyond_body_m_};
+  scene_.findBodies(area, near);
+  const auto found = std::find_if(near.begin(), near.end(),
+                                  [&](BodyId body) { return body != except && overlap(solid, as_obstacle(body)); });
+  return found == near.end() ? kNoBody : *found;
 }
 
 Snapshot PlacedBodies::snapshot(const State& state, std::span<const Path> paths, ImageSource* images) const {
@@ -90,6 +115,7 @@ Snapshot PlacedBodies::snapshot(const State& state, std::span<const Path> paths,
           .time = state.time,
           .seed = state.seed,
           .images = images,
+          .objects = state.objects,
           .surface = model_.world.bounds,
           .paths = paths,
           .driven_m = state.driven_m,

@@ -17,7 +17,10 @@ namespace robosim {
 /// The bodies of a model at the poses of a state: their shapes as a Scene, their heat and their reflectivity.
 class PlacedBodies {
  public:
-  explicit PlacedBodies(const Model& model);
+  PlacedBodies(const Model& model, const std::vector<WorldObject>& objects);
+
+  /// Replaces the objects, in time linear in the size of the world. place() must follow.
+  void setObjects(const std::vector<WorldObject>& objects);
 
   /// Places the known robots. Absent ones are not in the scene and emit no heat.
   /// @param kept robots whose frames sensors need
@@ -25,8 +28,11 @@ class PlacedBodies {
 
   /// Of a placed state. Users may only update its neighbours.
   Scene& scene() { return scene_; }
-  /// Whether a disc at a robot's height is entirely on the surface, and overlaps no body but the robot's own.
-  bool isFree(std::size_t robot, const Circle& disc) const;
+  /// The first body but `except` that a solid overlaps; kNoBody for none. Robots count as the discs for which their
+  /// moves are authorised.
+  BodyId overlapped(const Solid& solid, BodyId except) const;
+  /// What a robot occupies at a place when it is moved there: its disc, at its height.
+  Solid discOf(std::size_t robot, const mrpt::math::TPoint2D& center) const;
   /// What sensors perceive. The result refers to this object and to all parameters.
   /// @param state the placed one
   Snapshot snapshot(const State& state, std::span<const Path> paths, ImageSource* images) const;
@@ -38,6 +44,7 @@ class PlacedBodies {
     HeightSpan heights;
   };
 
+  void addProperties(const std::vector<WorldObject>& objects);
   void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id);
   void addReflectivity(const Body& body, BodyId id);
   Solid solidOf(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) const;
@@ -45,6 +52,7 @@ class PlacedBodies {
   const Model& model_;
   Scene scene_;
   std::vector<CompactBody> robot_bodies_;
+  double beyond_body_m_ = 0;              ///< maximum by which the disc of a robot extends beyond its body
   std::vector<PlanarTransform> frames_;   ///< of the robots whose readings are kept
   std::vector<HeatSource> heat_sources_;  ///< hot objects, then hot robots
   std::vector<float> reflectivity_;       ///< by body; empty if all have the default

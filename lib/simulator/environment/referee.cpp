@@ -7,15 +7,16 @@
 
 namespace robosim {
 
-std::vector<Outline> goldOf(const World& world) {
+std::vector<Outline> goldOf(const std::vector<WorldObject>& objects) {
   std::vector<Outline> gold;
-  for (const auto& object : world.objects) {
+  for (const auto& object : objects) {
     if (object.body.heat_celsius != 0) gold.push_back(object.body.solid().outline);
   }
   return gold;
 }
 
-Referee::Referee(const World& world) : gold_(goldOf(world)), win_distance_m_(world.win_distance_m) {}
+Referee::Referee(const std::vector<WorldObject>& objects, double win_distance_m)
+    : gold_(goldOf(objects)), win_distance_m_(win_distance_m) {}
 
 double Referee::distanceToGold(const Circle& disc) const {
   double nearest_m = std::numeric_limits<double>::infinity();

@@ -10,15 +10,15 @@
 
 namespace robosim {
 
-/// Outlines of the gold of a world: of every hot object.
-std::vector<Outline> goldOf(const World& world);
+/// Outlines of the gold among objects: of every hot one.
+std::vector<Outline> goldOf(const std::vector<WorldObject>& objects);
 
 /// Decides which robot wins (2005: CheckWin). Candidates are the robots that
 /// have requested CheckWin since the last decision and whose discs are within the world's win distance of gold, outline
 /// to outline. The nearest candidate wins; of equally near ones, the first in the world's list. Heights are ignored.
 class Referee {
  public:
-  explicit Referee(const World& world);
+  Referee(const std::vector<WorldObject>& objects, double win_distance_m);
 
   /// @param requests by robot, 1 for a request of CheckWin
   /// @param disc_of the disc of a robot at its current pose

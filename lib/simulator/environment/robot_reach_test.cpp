@@ -54,8 +54,9 @@ void placeOthers(Environment& environment, double reach_m, Rng& rng) {
     const double off_m = is_disc ? reach_m + radius_m + kBeyond_m[rng.below(5)]
                                  : rng.uniform(std::max(0.5, 0.3 * reach_m), 1.1 * reach_m + 2 * radius_m);
     const double direction = rng.uniform(-M_PI, M_PI);
-    environment.place(
-        robot, {centre.x + off_m * std::cos(direction), centre.y + off_m * std::sin(direction), rng.uniform(-3, 3)});
+    const PlaceBody place{environment.robotNames()[robot], centre.x + off_m * std::cos(direction),
+                          centre.y + off_m * std::sin(direction), rng.uniform(-3, 3)};
+    static_cast<void>(environment.apply({"test", place}));
   }
 }
 

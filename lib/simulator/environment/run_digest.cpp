@@ -86,13 +86,26 @@ void RunDigest::add(const State& state, const ParallelExecutor& workers, RobotRa
   });
 }
 
-void RunDigest::save(std::string& out) const { save({0, of_chunk_.size() * kDigestChunk}, out); }
+void RunDigest::add(std::uint64_t step, const Change& change) {
+  const std::string text = changeText(change);
+  of_interventions_.add(step);
+  of_interventions_.add(text.size());
+  of_interventions_.addBytes(text.data(), text.size());
+}
+
+void RunDigest::save(std::string& out) const {
+  of_interventions_.save(out);
+  save({0, of_chunk_.size() * kDigestChunk}, out);
+}
 
 void RunDigest::save(RobotRange robots, std::string& out) const {
   for (std::size_t i = robots.begin / kDigestChunk; i < chunkCountOf(robots.end); ++i) of_chunk_[i].save(out);
 }
 
-bool RunDigest::load(std::string_view saved) { return load({0, of_chunk_.size() * kDigestChunk}, saved); }
+bool RunDigest::load(std::string_view saved) {
+  return saved.size() == savedBytes() && of_interventions_.load(saved.substr(0, Digest::kSavedBytes)) &&
+         load({0, of_chunk_.size() * kDigestChunk}, saved.substr(Digest::kSavedBytes));
+}
 
 bool RunDigest::load(RobotRange robots, std::string_view saved) {
   const std::size_t first = robots.begin / kDigestChunk;
@@ -107,6 +120,7 @@ bool RunDigest::load(RobotRange robots, std::string_view saved) {
 std::string RunDigest::text() const {
   Digest all;
   for (const auto& chunk : of_chunk_) all.add(chunk.value());
+  if (of_interventions_ != Digest()) all.add(of_interventions_.value());
   return all.text();
 }
 

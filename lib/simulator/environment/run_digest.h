@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -6,6 +7,7 @@
 #include "base/digest.h"
 #include "base/parallel_executor.h"
 #include "environment/robot_range.h"
+#include "world/intervention.h"
 
 namespace robosim {
 
@@ -21,13 +23,16 @@ class RunDigest {
   void add(const State& state, const ParallelExecutor& workers);
   /// The same for some robots, which are whole chunks.
   void add(const State& state, const ParallelExecutor& workers, RobotRange robots);
+  /// Adds an intervention before a step. Its author has no effect.
+  void add(std::uint64_t step, const Change& change);
   std::string text() const;
   /// Number of robots in a chunk, but the last.
   static constexpr std::size_t kRobotsPerChunk = 256;
   std::size_t chunkCount() const { return of_chunk_.size(); }
   static std::size_t chunkCountOf(std::size_t robots);
 
-  /// Appends chunkCount() times Digest::kSavedBytes bytes.
+  /// Number of bytes of save().
+  std::size_t savedBytes() const { return (chunkCount() + 1) * Digest::kSavedBytes; }
   void save(std::string& out) const;
   /// The part of save() for the chunks of some robots. @param robots whole chunks
   void save(RobotRange robots, std::string& out) const;
@@ -39,6 +44,7 @@ class RunDigest {
 
  private:
   std::vector<Digest> of_chunk_;
+  Digest of_interventions_;  ///< without effect while empty
 };
 
 }  // namespace robosim

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <mrpt/math/TPose2D.h>
@@ -13,6 +14,8 @@
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "sensors/sensor.h"
+#include "world/changed_objects.h"
+#include "world/intervention.h"
 
 namespace robosim {
 
@@ -21,6 +24,20 @@ struct RobotAtStep {
   std::size_t robot = 0;
   std::uint64_t step = 0;
   bool operator==(const RobotAtStep&) const = default;
+};
+
+/// An end of a run by an intervention.
+struct RunEnd {
+  std::string outcome, text;  ///< EndRun
+  std::uint64_t step = 0;     ///< after which it was
+  bool operator==(const RunEnd&) const = default;
+};
+
+/// An intervention of Environment::apply().
+struct AppliedIntervention {
+  std::uint64_t step = 0;  ///< the first step in which it has an effect: it was applied directly before it
+  Intervention intervention;
+  bool operator==(const AppliedIntervention&) const = default;
 };
 
 /// All that changes during a run, between two steps. It is complete: a Model and a copy of a State, with the same
@@ -47,9 +64,15 @@ struct State {
   std::optional<RobotAtStep> found;  ///< the first robot of Activity::found; of several, the first in the world's order
   std::optional<RobotAtStep> won;    ///< the robot that has won
   std::optional<std::uint64_t> all_halted_step;  ///< the first at whose end haveAllHalted()
-  /// Number of times that a robot was placed elsewhere than its motion led (Environment::place()) so far. The entry of
-  /// an absent robot at its start does not count.
-  std::uint64_t placements = 0;
+  /// @name Interventions (Environment::apply())
+  ///@{
+  ChangedObjects objects;                      ///< instead of World::objects
+  std::optional<Communication> communication;  ///< instead of World::communication
+  std::optional<RunEnd> ended;
+  std::uint64_t interventions_applied = 0;  ///< so far
+  /// Those of the last step and those since, in the order in which they were applied.
+  std::vector<AppliedIntervention> interventions;
+  ///@}
   std::uint64_t stalls = 0;                         ///< number of robot-steps so far that were clipped or refused
   std::uint64_t messages_delivered = 0;             ///< a broadcast counts for each receiver
   std::uint64_t messages_dropped = 0;               ///< beyond a robot's limits (InboxLimit, kMaxMessagesSent), so far

@@ -9,6 +9,7 @@
 
 #include "base/digest.h"
 #include "base/error_list.h"
+#include "environment/intervention_bytes.h"
 #include "environment/measurement_bytes.h"
 #include "environment/state_stream.h"
 #include "hardware/measurement_fields.h"
@@ -20,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 5;  ///< since 5, with outcome, placements and emergency stops
+constexpr std::uint32_t kVersion = 6;  ///< since 6, with interventions
 constexpr std::size_t kSizeAt = 20;    ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
@@ -218,8 +219,9 @@ void readMessages(const Model& model, StateReader& in, State& state) {
        {&lost.out_of_range, &lost.stopped_by_walls, &lost.by_chance, &lost.in_bursts, &lost.absent}) {
     *number = in.takeNumber<std::uint64_t>();
   }
+  // An intervention may have made the delay shorter since they were sent.
   const std::uint64_t last_step =
-      state.time.step + std::max<std::uint64_t>(1, delaySteps(model.world.communication, model.period_s));
+      state.time.step + std::max<std::uint64_t>(1, delaySteps({.delay_s = kDelayMax_s}, model.period_s));
   std::uint64_t earliest = state.time.step + 1;
   for (auto left = in.takeNumber<std::uint64_t>(); left > 0; --left) {
     MessageInFlight& message = state.messages_in_flight.emplace_back();
@@ -266,7 +268,7 @@ State readContents(const Model& model, StateReader in) {
   const std::size_t robots = model.fleet.robots.size();
   state.time.step = in.takeNumber<std::uint64_t>();
   state.seed = in.takeNumber<std::uint64_t>();
-  state.placements = in.takeNumber<std::uint64_t>();
+  readInterventions(in, state);
   state.stalls = in.takeNumber<std::uint64_t>();
   state.messages_delivered = in.takeNumber<std::uint64_t>();
   state.messages_dropped = in.takeNumber<std::uint64_t>();
@@ -276,12 +278,11 @@ State readContents(const Model& model, StateReader in) {
   if (state.won) {
     for (auto& readings : state.readings) readings.winner = model.fleet.robots[state.won->robot].info.name;
   }
-  if (in.isAtEnd() && robots > 0) {
+  if (in.isAtEnd()) {
     state.digest.reset();
     return state;
   }
-  requireContents(state.digest->load(in.takeBytes(state.digest->chunkCount() * Digest::kSavedBytes)),
-                  "the run's digest is invalid");
+  requireContents(state.digest->load(in.takeBytes(state.digest->savedBytes())), "the run's digest is invalid");
   requireContents(in.isAtEnd(), "they are too long");
   return state;
 }
@@ -296,7 +297,7 @@ std::string toBytes(const Model& model, const State& state) {
   out.addNumber(digestOf(model));
   out.addNumber(state.time.step);
   out.addNumber(state.seed);
-  out.addNumber(state.placements);
+  writeInterventions(state, out);
   out.addNumber(state.stalls);
   out.addNumber(state.messages_delivered);
   out.addNumber(state.messages_dropped);

@@ -186,7 +186,15 @@ TEST(State, DiffersInEachOfItsParts) {
         s.won = {1, 1};
       },
       [](State& s) { s.all_halted_step = 1; },
-      [](State& s) { ++s.placements; },
+      [](State& s) { ++s.interventions_applied; },
+      [](State& s) {
+        s.interventions.push_back({s.time.step, {"test", RemoveBody{"r1"}}});
+      },
+      [](State& s) { s.objects = ChangedObjects(std::vector<WorldObject>()); },
+      [](State& s) { s.communication = Communication{}; },
+      [](State& s) {
+        s.ended = RunEnd{"goal", "", 1};
+      },
       [](State& s) { ++s.stalls; },
       [](State& s) { ++s.messages_delivered; },
       [](State& s) { ++s.messages_dropped; },

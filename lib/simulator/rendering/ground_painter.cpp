@@ -82,9 +82,9 @@ void drawMaps(DrawingSurface& surface, const World& world) {
   }
 }
 
-void drawObjects(DrawingSurface& surface, const World& world) {
+void drawObjects(DrawingSurface& surface, const std::vector<WorldObject>& objects) {
   std::vector<const Body*> bodies;
-  for (const auto& object : world.objects) bodies.push_back(&object.body);
+  for (const auto& object : objects) bodies.push_back(&object.body);
   std::stable_sort(bodies.begin(), bodies.end(),
                    [](const Body* a, const Body* b) { return a->heights().z_max_m < b->heights().z_max_m; });
   for (const Body* body : bodies) {
@@ -205,14 +205,14 @@ void NameWriter::writeWithLeader(const std::string& name, const TPoint2D& center
   }
 }
 
-void NameWriter::writeHotObjects(const World& world) {
+void NameWriter::writeHotObjects(const std::vector<WorldObject>& objects) {
   struct Label {
     const std::string& name;
     TPoint2D center, half;  // [px]
   };
   std::vector<Label> labels;
   const GroundView& view = surface_.view();
-  for (const auto& object : world.objects) {
+  for (const auto& object : objects) {
     if (object.body.heat_celsius <= 0) continue;
     const Bounds2D b = boundsOf(object.body.solid().outline);
     const auto& pose = object.body.world_from_body;

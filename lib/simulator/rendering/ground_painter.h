@@ -30,8 +30,8 @@ double gridStep(const GroundView&);
 void drawFloor(DrawingSurface&, const Bounds2D& bounds);
 /// The walls of the world's maps.
 void drawMaps(DrawingSurface&, const World&);
-/// The world's objects in their colours, in order of height, hot ones with a glow.
-void drawObjects(DrawingSurface&, const World&);
+/// Objects in their colours, in order of height, hot ones with a glow.
+void drawObjects(DrawingSurface&, const std::vector<WorldObject>& objects);
 /// A disc with a mark in the direction of its heading; all in pixels.
 void drawRobot(DrawingSurface&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,
                const Color&);
@@ -60,7 +60,7 @@ class NameWriter {
   void write(const std::string& name, const mrpt::math::TPoint2D& center, double half_width_px, double half_height_px,
              const Color&);
   /// The name of each hot object.
-  void writeHotObjects(const World&);
+  void writeHotObjects(const std::vector<WorldObject>& objects);
 
  private:
   bool isFree(const Bounds2D& place) const;

@@ -39,7 +39,7 @@ mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from
 }  // namespace
 
 struct OffscreenRenderer::Impl {
-  Impl(const World& the_world, const Fleet& the_fleet) : thread(RenderThread::shared()) {
+  Impl(const World& the_world, const Fleet& the_fleet) : thread(RenderThread::shared()), objects(the_world.objects) {
     for (const auto& robot : the_fleet.robots) underside_m.push_back(robot.body.heights().z_min_m);
     thread->run([&](RenderThread::Targets&) {
       scene = std::make_unique<mrpt::opengl::COpenGLScene>();
@@ -56,11 +56,22 @@ struct OffscreenRenderer::Impl {
     });
   }
 
+  /// Shows what there is to see. In the render thread only.
+  void show(const SeenWorld& seen) {
+    if (!seen.objects.isSameList(shown_objects)) {
+      world->setObjects(seen.objects.orThose(objects), *scene);
+      shown_objects = seen.objects;
+    }
+    world->place(seen.world_from_robot);
+  }
+
   std::shared_ptr<RenderThread> thread;
-  std::vector<double> underside_m;  ///< of each robot
+  const std::vector<WorldObject> objects;  ///< of the world
+  std::vector<double> underside_m;         ///< of each robot
   // Used in the render thread only:
   std::unique_ptr<mrpt::opengl::COpenGLScene> scene;
   std::optional<WorldScene> world;
+  ChangedObjects shown_objects;
 };
 
 OffscreenRenderer::OffscreenRenderer(const World& world, const Fleet& fleet)
@@ -68,8 +79,8 @@ OffscreenRenderer::OffscreenRenderer(const World& world, const Fleet& fleet)
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
-void OffscreenRenderer::take(const CameraView& camera, std::span<const TPose2D> world_from_robot,
-                             std::span<const std::uint32_t> robots, std::span<std::string> jpegs) {
+void OffscreenRenderer::take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
+                             std::span<std::string> jpegs) {
   std::vector<cv::Mat> pictures(robots.size());
   impl_->thread->run([&](RenderThread::Targets& targets) {
     const CameraInfo pinhole = camera.hasErrors() ? pinholeFor(camera) : camera.info;
@@ -79,10 +90,10 @@ void OffscreenRenderer::take(const CameraView& camera, std::span<const TPose2D> 
       rendered.height_px *= 2;
     }
     auto& target = targets.ofSize(rendered.width_px, rendered.height_px);
-    impl_->world->place(world_from_robot);
+    impl_->show(seen);
     mrpt::img::CImage picture;
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      const TPose2D& robot = world_from_robot[robots[i]];
+      const TPose2D& robot = seen.world_from_robot[robots[i]];
       const CPose3D world_from_camera =
           CPose3D(robot.x, robot.y, impl_->underside_m[robots[i]], robot.phi, 0, 0) + CPose3D(camera.robot_from_camera);
       target.setCamera(*impl_->scene, cameraAt(rendered, world_from_camera));
@@ -109,12 +120,12 @@ std::vector<Blob> OffscreenRenderer::findBlobs(const std::string& jpeg, const st
   return robosim::findBlobs(jpeg, colors, pixels_min);
 }
 
-cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& world_from_camera,
-                                   std::span<const TPose2D> world_from_robot, DepthBuffer* depth) {
+cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& world_from_camera, const SeenWorld& seen,
+                                   DepthBuffer* depth) {
   cv::Mat drawn;
   impl_->thread->run([&](RenderThread::Targets& targets) {
     auto& target = targets.ofSize(camera.width_px, camera.height_px);
-    impl_->world->place(world_from_robot);
+    impl_->show(seen);
     target.setCamera(*impl_->scene, cameraAt(camera, CPose3D(world_from_camera)));
     mrpt::img::CImage picture;
     target.render_RGB(*impl_->scene, picture);
@@ -124,10 +135,9 @@ cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& worl
   return drawn;
 }
 
-cv::Mat OffscreenRenderer::depth(const CameraInfo& camera, const TPose3D& world_from_camera,
-                                 std::span<const TPose2D> world_from_robot) {
+cv::Mat OffscreenRenderer::depth(const CameraInfo& camera, const TPose3D& world_from_camera, const SeenWorld& seen) {
   DepthBuffer buffer;
-  picture(camera, world_from_camera, world_from_robot, &buffer);
+  picture(camera, world_from_camera, seen, &buffer);
   cv::Mat_<float> depths(buffer.height_px, buffer.width_px);
   for (int y = 0; y < depths.rows; ++y) {
     for (int x = 0; x < depths.cols; ++x) depths(y, x) = buffer.metresAt(x, y);

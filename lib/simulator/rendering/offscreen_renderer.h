@@ -21,8 +21,8 @@ class OffscreenRenderer : public ImageSource {
   OffscreenRenderer(const World& world, const Fleet& fleet);
   ~OffscreenRenderer() override;
 
-  void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
-            std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override;
+  void take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
+            std::span<std::string> jpegs) override;
   std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors,
                               unsigned pixels_min) override;
 
@@ -31,11 +31,10 @@ class OffscreenRenderer : public ImageSource {
   ///@{
   /// Blue, green, red, 8 bits each.
   /// @param depth receives the depths of the same picture, if not null
-  cv::Mat picture(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                  std::span<const mrpt::math::TPose2D> world_from_robot, DepthBuffer* depth = nullptr);
+  cv::Mat picture(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera, const SeenWorld& seen,
+                  DepthBuffer* depth = nullptr);
   /// Depth of each pixel along the optical axis [m], single precision; 0 for the sky.
-  cv::Mat depth(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                std::span<const mrpt::math::TPose2D> world_from_robot);
+  cv::Mat depth(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera, const SeenWorld& seen);
   ///@}
 
  private:

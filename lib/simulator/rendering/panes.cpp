@@ -173,11 +173,11 @@ cv::Mat Panes::render(CameraInfo camera, const TPose3D& world_from_camera, const
                       DepthBuffer* depth) {
   std::vector<TPose2D> world_from_robot;
   for (const auto& robot : snapshot.robots) world_from_robot.push_back(robot.shownPose());
-  if (!look_.antialias) return draw_3d_(camera, world_from_camera, world_from_robot, depth);
+  if (!look_.antialias) return draw_3d_(camera, world_from_camera, {world_from_robot, snapshot.objects}, depth);
   const cv::Size size(static_cast<int>(camera.width_px), static_cast<int>(camera.height_px));
   camera.width_px *= 2;
   camera.height_px *= 2;
-  cv::Mat picture = draw_3d_(camera, world_from_camera, world_from_robot, depth);
+  cv::Mat picture = draw_3d_(camera, world_from_camera, {world_from_robot, snapshot.objects}, depth);
   cv::resize(picture, picture, size, 0, 0, cv::INTER_AREA);
   return picture;
 }

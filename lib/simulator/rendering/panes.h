@@ -43,7 +43,7 @@ class Panes {
   /// Renders a 3D pane or an inset: BGR, of the camera's size; if `depth` is not null, with the depths of the picture
   /// (OffscreenRenderer::picture()). Called only for these.
   using Draw3d = std::function<cv::Mat(const CameraInfo&, const mrpt::math::TPose3D& world_from_camera,
-                                       std::span<const mrpt::math::TPose2D> world_from_robot, DepthBuffer* depth)>;
+                                       const SeenWorld& seen, DepthBuffer* depth)>;
 
   /// Style of the whole picture.
   struct Look {

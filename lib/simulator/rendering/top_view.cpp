@@ -32,9 +32,9 @@ DrawingSurface emptyFloor(const World& world, const GroundView& view, double sca
   return surface;
 }
 
-void drawObjectsAndMaps(DrawingSurface& surface, const World& world) {
+void drawObjectsAndMaps(DrawingSurface& surface, const World& world, const ChangedObjects& objects) {
   drawMaps(surface, world);
-  drawObjects(surface, world);
+  drawObjects(surface, objects.orThose(world.objects));
 }
 
 /// Draws one picture, from back to front.
@@ -59,7 +59,7 @@ class Drawing {
     if (objects_) {
       surface_.lay(*objects_);
     } else {
-      drawObjectsAndMaps(surface_, world_);
+      drawObjectsAndMaps(surface_, world_, snapshot_.objects);
     }
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) drawRobot(i, layers.events);
     if (layers.sensors) drawTouch();
@@ -250,7 +250,7 @@ class Drawing {
       names.keepClear(center, radiusPx(i), radiusPx(i));
       seen.push_back(i);
     }
-    names.writeHotObjects(world_);
+    names.writeHotObjects(snapshot_.objects.orThose(world_.objects));
     if (seen.size() > kMaxNames || level_.is_crowded) return;
     for (const std::size_t i : seen) {
       names.write(fleet_.robots[i].info.name, pixelOf(snapshot_.robots[i].world_from_robot), radiusPx(i), radiusPx(i),
@@ -320,14 +320,17 @@ GroundView TopView::groundView(const RunSnapshot& snapshot, const TopViewCamera&
 cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
                       const TopViewLayers& layers) {
   const GroundView view = groundView(snapshot, camera);
-  if (std::exchange(last_view_, view) != view || std::exchange(last_scale_, camera.scale) != camera.scale) {
+  const bool has_same_objects = snapshot.objects.isSameList(last_objects_);
+  last_objects_ = snapshot.objects;
+  if (std::exchange(last_view_, view) != view || std::exchange(last_scale_, camera.scale) != camera.scale ||
+      !has_same_objects) {
     static_layers_.reset();
     return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view, camera.scale), nullptr, camera.follow)
         .draw(paths, layers);
   }
   if (!static_layers_) {
     DrawingSurface objects(view, std::nullopt, camera.scale);
-    drawObjectsAndMaps(objects, world_);
+    drawObjectsAndMaps(objects, world_, snapshot.objects);
     static_layers_ =
         std::make_unique<StaticLayers>(StaticLayers{emptyFloor(world_, view, camera.scale), std::move(objects)});
   }

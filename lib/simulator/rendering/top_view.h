@@ -58,6 +58,7 @@ class TopView {
   const Fleet& fleet_;
   GroundView last_view_;
   double last_scale_ = 1;
+  ChangedObjects last_objects_;
   std::unique_ptr<const StaticLayers> static_layers_;  ///< of `last_view_`, created when it is drawn a second time
 };
 

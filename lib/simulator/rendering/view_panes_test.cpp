@@ -39,7 +39,7 @@ TEST_F(ViewPanes, LastRowOfPanesIsAsWideAsThePicture) {
 
 TEST_F(ViewPanes, ClickingARobotTurns3dPanesThatFollowToIt) {
   TPose3D world_from_camera;
-  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, std::span<const TPose2D>, DepthBuffer*) {
+  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, const SeenWorld&, DepthBuffer*) {
     world_from_camera = pose;
     return cv::Mat(static_cast<int>(info.height_px), static_cast<int>(info.width_px), CV_8UC3);
   };
@@ -85,7 +85,7 @@ TEST_F(ViewPanes, Pane3dOfAnySizeInitiallyShowsTheWholeWorld) {
     CameraInfo camera_info;
     mrpt::math::TPose3D world_from_camera;
     Panes panes(world, fleet, {makePane(true, std::nullopt, world)},
-                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, std::span<const TPose2D>, DepthBuffer*) {
+                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, const SeenWorld&, DepthBuffer*) {
                   camera_info = info;
                   world_from_camera = pose;
                   return cv::Mat(cv::Size(size), CV_8UC3);

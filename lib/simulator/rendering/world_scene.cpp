@@ -40,23 +40,27 @@ struct Tile {
   Mesh bodies, shadows;
 };
 
-/// All static bodies of a world: objects and maps.
-std::vector<Body> bodiesOf(const World& world) {
+std::vector<Body> bodiesOf(const std::vector<WorldObject>& objects) {
   std::vector<Body> bodies;
-  for (const auto& object : world.objects) bodies.push_back(object.body);
-  for (const auto& map : world.maps) {
+  for (const auto& object : objects) bodies.push_back(object.body);
+  return bodies;
+}
+
+std::vector<Body> bodiesOf(const std::vector<WorldMap>& maps) {
+  std::vector<Body> bodies;
+  for (const auto& map : maps) {
     const auto of_map = bodiesOf(map);
     bodies.insert(bodies.end(), of_map.begin(), of_map.end());
   }
   return bodies;
 }
 
-std::vector<Tile> tilesOf(const World& world) {
-  const double side_m = std::max({kTile_m, (world.bounds.x_max - world.bounds.x_min) / kMaxTiles,
-                                  (world.bounds.y_max - world.bounds.y_min) / kMaxTiles});
-  const int sides = world.objects.size() <= 500 ? 72 : 24;
+std::vector<Tile> tilesOf(std::vector<Body> bodies, const Bounds2D& bounds) {
+  const double side_m =
+      std::max({kTile_m, (bounds.x_max - bounds.x_min) / kMaxTiles, (bounds.y_max - bounds.y_min) / kMaxTiles});
+  const int sides = bodies.size() <= 500 ? 72 : 24;
   std::map<std::pair<double, double>, Tile> tiles;
-  for (Body& body : bodiesOf(world)) {
+  for (Body& body : bodies) {
     const TPose2D place = body.world_from_body;
     const TPoint2D center((std::floor(place.x / side_m) + 0.5) * side_m, (std::floor(place.y / side_m) + 0.5) * side_m);
     Tile& tile = tiles.try_emplace({center.x, center.y}, Tile{center, {}, {}}).first->second;
@@ -82,10 +86,14 @@ struct WorldScene::Impl {
     std::shared_ptr<Shadows> shadows;
   };
 
-  void addObjects(const World& world);
+  using Parts = std::vector<mrpt::opengl::CRenderizable::Ptr>;
+
+  Parts partsOf(std::vector<Body> bodies) const;
   void addRobots(const World& world, const Fleet& fleet);
 
-  std::vector<mrpt::opengl::CRenderizable::Ptr> all;
+  Bounds2D bounds;
+  Parts all;      ///< but the objects
+  Parts objects;  ///< of the world
   std::vector<RobotGroup> groups;
   struct RobotInstance {
     std::size_t group, instance;
@@ -93,15 +101,17 @@ struct WorldScene::Impl {
   std::vector<RobotInstance> instances;  ///< by robot
 };
 
-void WorldScene::Impl::addObjects(const World& world) {
-  for (Tile& tile : tilesOf(world)) {
-    auto bodies = std::make_shared<InstancedMesh>(std::move(tile.bodies));
-    bodies->instances() = {at(tile.center.x, tile.center.y)};
-    all.push_back(bodies);
-    auto shadows = std::make_shared<Shadows>(std::move(tile.shadows), world.bounds);
-    shadows->instances() = bodies->instances();
-    all.push_back(shadows);
+WorldScene::Impl::Parts WorldScene::Impl::partsOf(std::vector<Body> bodies) const {
+  Parts parts;
+  for (Tile& tile : tilesOf(std::move(bodies), bounds)) {
+    auto mesh = std::make_shared<InstancedMesh>(std::move(tile.bodies));
+    mesh->instances() = {at(tile.center.x, tile.center.y)};
+    parts.push_back(mesh);
+    auto shadows = std::make_shared<Shadows>(std::move(tile.shadows), bounds);
+    shadows->instances() = mesh->instances();
+    parts.push_back(shadows);
   }
+  return parts;
 }
 
 void WorldScene::Impl::addRobots(const World& world, const Fleet& fleet) {
@@ -135,7 +145,10 @@ void WorldScene::Impl::addRobots(const World& world, const Fleet& fleet) {
 WorldScene::WorldScene(const World& world, const Fleet& fleet) : impl_(std::make_unique<Impl>()) {
   impl_->all.push_back(std::make_shared<Ground>(world.bounds));
   impl_->all.push_back(std::make_shared<Sky>());
-  impl_->addObjects(world);
+  impl_->bounds = world.bounds;
+  impl_->objects = impl_->partsOf(bodiesOf(world.objects));
+  const auto maps = impl_->partsOf(bodiesOf(world.maps));
+  impl_->all.insert(impl_->all.end(), maps.begin(), maps.end());
   impl_->addRobots(world, fleet);
   std::vector<TPose2D> starts;
   for (const auto& robot : fleet.robots) starts.push_back(robot.world_from_start);
@@ -145,7 +158,15 @@ WorldScene::WorldScene(const World& world, const Fleet& fleet) : impl_(std::make
 WorldScene::~WorldScene() = default;
 
 void WorldScene::addTo(mrpt::opengl::COpenGLScene& scene) const {
-  for (const auto& object : impl_->all) scene.insert(object);
+  for (const auto* parts : {&impl_->all, &impl_->objects}) {
+    for (const auto& part : *parts) scene.insert(part);
+  }
+}
+
+void WorldScene::setObjects(const std::vector<WorldObject>& objects, mrpt::opengl::COpenGLScene& scene) {
+  for (const auto& part : impl_->objects) scene.removeObject(part);
+  impl_->objects = impl_->partsOf(bodiesOf(objects));
+  for (const auto& part : impl_->objects) scene.insert(part);
 }
 
 void WorldScene::place(std::span<const TPose2D> world_from_robot) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/opengl/COpenGLScene.h>
@@ -24,8 +25,10 @@ class WorldScene {
   WorldScene(const WorldScene&) = delete;
   WorldScene& operator=(const WorldScene&) = delete;
 
-  /// Adds the objects to a scene's main viewport.
+  /// Adds all that is drawn to a scene's main viewport.
   void addTo(mrpt::opengl::COpenGLScene& scene) const;
+  /// Replaces the objects of the world. @param scene that of addTo()
+  void setObjects(const std::vector<WorldObject>& objects, mrpt::opengl::COpenGLScene& scene);
 
   /// Sets the pose of each robot, in the fleet's order. A robot at kNotShown (sensors/image_source.h) is not drawn.
   void place(std::span<const mrpt::math::TPose2D> world_from_robot);

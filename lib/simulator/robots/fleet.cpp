@@ -13,6 +13,7 @@
 #include "robots/scatter.h"
 #include "robots/start_check.h"
 #include "robots/start_places.h"
+#include "robots/timeline_check.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -166,6 +167,7 @@ LoadedWorld placedWorld(World world, const std::string& world_file, const RobotT
                         std::vector<std::string>* warnings) {
   LoadedWorld placed{std::move(world), {}};
   placeScattered(placed.world, world_file, types, seed, errors);
+  checkTimeline(placed.world, world_file, errors);
   const ErrorList before = errors;
   placed.fleet = buildFleet(placed.world, world_file, types, check_controller, errors);
   const bool has_models = placed.fleet.robots.size() == placed.world.robots.size();

@@ -8,6 +8,7 @@
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "sensors/image_source.h"
+#include "world/changed_objects.h"
 
 namespace robosim {
 
@@ -30,6 +31,7 @@ struct RunSnapshot {
   std::uint64_t step = 0;
   double time_s = 0;
   std::vector<RobotSnapshot> robots;  ///< in the world's order
+  ChangedObjects objects = {};
 };
 
 }  // namespace robosim

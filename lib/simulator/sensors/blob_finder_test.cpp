@@ -10,7 +10,7 @@ namespace {
 /// ImageSource whose pictures contain their camera's width, which is also the width of the blobs found in them.
 class WidthImages : public ImageSource {
  public:
-  void take(const CameraView& camera, std::span<const mrpt::math::TPose2D>, std::span<const std::uint32_t>,
+  void take(const CameraView& camera, const SeenWorld&, std::span<const std::uint32_t>,
             std::span<std::string> jpegs) override {
     for (auto& jpeg : jpegs) jpeg = std::to_string(camera.info.width_px);
   }

@@ -28,9 +28,9 @@ class Camera : public Sensor {
       if (view_.hasErrors()) {
         CameraView view = view_;
         view.moment = momentOf(now, robots, slot);
-        now.images->take(view, poses, robots, jpegs);
+        now.images->take(view, {poses, now.objects}, robots, jpegs);
       } else {
-        now.images->take(view_, poses, robots, jpegs);
+        now.images->take(view_, {poses, now.objects}, robots, jpegs);
       }
     }
     for (std::size_t i = 0; i < robots.size(); ++i) {

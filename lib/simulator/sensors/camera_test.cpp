@@ -13,11 +13,11 @@ namespace {
 /// ImageSource that records its calls and returns placeholder bytes.
 class FakeImages : public ImageSource {
  public:
-  void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
-            std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override {
+  void take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
+            std::span<std::string> jpegs) override {
     ++calls;
     view = camera;
-    poses.assign(world_from_robot.begin(), world_from_robot.end());
+    poses.assign(seen.world_from_robot.begin(), seen.world_from_robot.end());
     for (std::size_t i = 0; i < robots.size(); ++i) jpegs[i] = "robot " + std::to_string(robots[i]);
   }
   std::vector<Blob> findBlobs(const std::string&, const std::vector<TargetColor>&, unsigned) override { return {}; }

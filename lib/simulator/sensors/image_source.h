@@ -3,6 +3,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mrpt/math/TPose2D.h>
@@ -12,6 +13,7 @@
 #include "hardware/measurement.h"
 #include "hardware/sensor_info.h"
 #include "sensors/camera_errors.h"
+#include "world/changed_objects.h"
 
 namespace robosim {
 
@@ -40,6 +42,19 @@ inline std::vector<mrpt::math::TPose2D> shownPoses(std::span<const mrpt::math::T
   return shown;
 }
 
+/// What there is to see at an instant.
+struct SeenWorld {
+  SeenWorld() = default;
+  SeenWorld(std::span<const mrpt::math::TPose2D> poses, ChangedObjects changed = {})
+      : world_from_robot(poses), objects(std::move(changed)) {}
+  SeenWorld(const std::vector<mrpt::math::TPose2D>& poses, ChangedObjects changed = {})
+      : SeenWorld(std::span(poses), std::move(changed)) {}
+
+  /// Of all robots, in the world's order; kNotShown for absent ones.
+  std::span<const mrpt::math::TPose2D> world_from_robot;
+  ChangedObjects objects;
+};
+
 struct TargetColor;  // sensors/blob_finder.h
 
 /// Interface that renders and searches the pictures of cameras. One source serves all cameras of a run.
@@ -48,10 +63,9 @@ class ImageSource {
   virtual ~ImageSource() = default;
 
   /// Takes a picture with the camera of each of `robots`, all at one instant. Thread-safe.
-  /// @param world_from_robot poses of all robots, in the world's order; kNotShown for absent ones
   /// @param jpegs one per element of `robots`; replaced by the bytes of a JPEG file
-  virtual void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
-                    std::span<const std::uint32_t> robots, std::span<std::string> jpegs) = 0;
+  virtual void take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
+                    std::span<std::string> jpegs) = 0;
 
   /// The largest blob of each colour in a picture of take(). Thread-safe.
   /// @param pixels_min smaller blobs are ignored

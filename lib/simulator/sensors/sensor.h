@@ -16,6 +16,7 @@
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
 #include "sensors/image_source.h"
+#include "world/changed_objects.h"
 #include "world/world.h"
 
 namespace robosim {
@@ -47,6 +48,7 @@ struct Snapshot {
   SimTime time;
   std::uint64_t seed = 0;
   ImageSource* images = nullptr;  ///< null: cameras take no pictures
+  ChangedObjects objects = {};    ///< of pictures; the scene has them already
   /// Area that robots stay in; nullopt: unbounded.
   std::optional<Bounds2D> surface = std::nullopt;
   std::span<const Path> paths = {};          ///< of this step, clipped; empty: no motion has been blocked

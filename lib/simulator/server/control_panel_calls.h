@@ -23,6 +23,9 @@ inline SessionRules controlPanelRules(Right right) {
   return {.right = right, .log_kind = "refused control panels", .refused_word = "refused"};
 }
 
+/// Of the audit log.
+constexpr std::size_t kAuditedChangeBytesMax = 300;
+
 /// Parameters of a request for the audit log.
 inline std::string detailsOf(const google::protobuf::Message&) { return ""; }
 inline std::string detailsOf(const v1::StepRequest& request) { return " " + std::to_string(request.steps()); }
@@ -30,6 +33,9 @@ inline std::string detailsOf(const v1::SetSpeedRequest& request) {
   return request.speed() == 0 ? " max" : " " + std::to_string(request.speed());
 }
 inline std::string detailsOf(const v1::SetRecordingRequest& request) { return request.on() ? " on" : " off"; }
+inline std::string detailsOf(const v1::SuperviseRequest& request) {
+  return " " + request.change().substr(0, kAuditedChangeBytesMax);
+}
 
 /// A call that changes the run or reports its status, between steps.
 class ControlPanelSession::Call {

@@ -17,6 +17,8 @@ namespace {
 
 /// Upper limit of a step request; rejects typing errors.
 constexpr std::uint64_t kStepsMax = 1'000'000'000;
+/// Maximum size of the text of a change.
+constexpr std::size_t kChangeBytesMax = 64 * 1024;
 
 /// Index of a method in the service.
 int indexOf(const char* method) {
@@ -43,6 +45,21 @@ void setRecording(RunOperations& operations, bool on) {
   } catch (const ConfigError& error) {  // not of the world
     throw WireError(errorStatus(v1::ERROR_REASON_RECORDING_UNAVAILABLE, error.what()));
   }
+}
+
+/// @throws WireError for an invalid or impossible change
+void supervise(RunOperations& operations, const std::string& change, const std::string& author) {
+  std::string fault;
+  if (change.size() > kChangeBytesMax) {
+    throw WireError("a change of " + std::to_string(change.size()) + " bytes; the most is " +
+                    std::to_string(kChangeBytesMax));
+  }
+  try {
+    fault = operations.intervene({author, parseChange(change, "change")});
+  } catch (const ConfigError& error) {
+    fault = error.what();
+  }
+  if (!fault.empty()) throw WireError(errorStatus(v1::ERROR_REASON_CHANGE_REFUSED, fault));
 }
 
 }  // namespace
@@ -98,6 +115,10 @@ void ControlPanelSession::open(const CompletionQueueServer::ServiceQueues& queue
                                           [](RunOperations& operations, const v1::SetRecordingRequest& request, Call&) {
                                             setRecording(operations, request.on());
                                           }});
+  serve<v1::SuperviseRequest>(queues, {"supervise", Right::supervise, &Self::RequestSupervise,
+                                       [](RunOperations& operations, const v1::SuperviseRequest& request, Call& call) {
+                                         supervise(operations, request.change(), call.session().client().name());
+                                       }});
 }
 
 template <typename Request>

@@ -10,6 +10,7 @@
 #include "server/run_control.h"
 #include "server/served_run.h"
 #include "server/serving_state.h"
+#include "world/intervention.h"
 
 namespace robosim {
 
@@ -22,9 +23,10 @@ class WatchAsStream : public v1::ControlPanel::Service {
 
 /// Generated service with the method styles that ControlPanelSession uses.
 using ControlPanelService = v1::ControlPanel::WithRawMethod_Load<v1::ControlPanel::WithAsyncMethod_SetRecording<
-    v1::ControlPanel::WithAsyncMethod_Start<v1::ControlPanel::WithAsyncMethod_Pause<
-        v1::ControlPanel::WithAsyncMethod_Step<v1::ControlPanel::WithAsyncMethod_SetSpeed<
-            v1::ControlPanel::WithAsyncMethod_Stop<v1::ControlPanel::WithAsyncMethod_GetStatus<WatchAsStream>>>>>>>>;
+    v1::ControlPanel::WithAsyncMethod_Supervise<v1::ControlPanel::WithAsyncMethod_Start<
+        v1::ControlPanel::WithAsyncMethod_Pause<v1::ControlPanel::WithAsyncMethod_Step<
+            v1::ControlPanel::WithAsyncMethod_SetSpeed<v1::ControlPanel::WithAsyncMethod_Stop<
+                v1::ControlPanel::WithAsyncMethod_GetStatus<WatchAsStream>>>>>>>>>;
 
 /// Operations on the run that control panels can request.
 struct RunOperations {
@@ -37,6 +39,8 @@ struct RunOperations {
   std::function<void(std::unique_ptr<PreparedRun>)> replace;
   /// Starts or stops the recording. @throws ConfigError when it cannot be started or completed
   std::function<void(bool)> set_recording;
+  /// Environment::apply() of the run. @return what is wrong; empty when it is applied
+  std::function<std::string(const Intervention&)> intervene;
   /// Fills in the status of the run.
   std::function<void(v1::RunStatus&)> describe = [](v1::RunStatus&) {};
 };

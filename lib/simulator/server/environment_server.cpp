@@ -230,6 +230,11 @@ struct EnvironmentServer::Impl {
     operations.replace = [&](std::unique_ptr<PreparedRun> next) { replace(run, std::move(next)); };
     serving.interrupted = interrupted;
     operations.set_recording = [&run](bool on) { run.setRecording(on); };
+    operations.intervene = [&](const Intervention& change) {
+      if (has_run_ended || run.isOver())
+        return std::string("the run is over, and its result stands; load the next one");
+      return run.environment().apply(change);
+    };
     operations.describe = [&](v1::RunStatus& status) { describe(run, status); };
     admit(run);
     areRobotsConnected();  // so that a status requested first is correct

@@ -27,8 +27,10 @@ class ViewerSession::Stream final : public StreamSession<v1::FrameRequest, v1::F
   std::string logName() const override { return "viewer " + peer(); }
 
   /// Whether it has requested a frame that it has not received.
-  bool isWaitingFor(std::uint64_t step_now) const {
-    return has_request && isIdle() && (needs_world || step != step_now || sent_selection != selection);
+  bool isWaitingFor(const Environment& environment) const {
+    return has_request && isIdle() &&
+           (needs_world || step != environment.time().step || pose_changes != environment.poseChanges() ||
+            sent_selection != selection);
   }
 
   void answered() {
@@ -38,8 +40,10 @@ class ViewerSession::Stream final : public StreamSession<v1::FrameRequest, v1::F
 
   bool has_request = false;  ///< for a frame
   ReadingsSelection selection;
-  bool needs_world = true;                 ///< the next frame is complete
-  std::uint64_t step = 0;                  ///< of the last frame sent
+  bool needs_world = true;         ///< the next frame is complete
+  std::uint64_t step = 0;          ///< of the last frame sent
+  std::uint64_t pose_changes = 0;  ///< Environment::poseChanges() of that frame
+  ChangedObjects sent_objects;
   ReadingsSelection sent_selection;        ///< of that frame
   std::vector<RobotSnapshot> sent_robots;  ///< last state sent, without readings
   SentSteps sent_steps;
@@ -91,7 +95,7 @@ void ViewerSession::publish() {
   for (const auto& stream : streams_) watched.insert(stream->selection.of.begin(), stream->selection.of.end());
   camera_frames_.update(watched, state.readings);
   for (const auto& stream : streams_) {
-    if (stream->isWaitingFor(state.time.step)) send(*stream);
+    if (stream->isWaitingFor(serving_.run_info->environment)) send(*stream);
   }
 }
 
@@ -120,6 +124,10 @@ void ViewerSession::send(Stream& stream) {
     stream.sent_steps.assign(run_info.robot_names.size(), std::nullopt);
     stream.sent_pictures.clear();
   }
+  if (stream.needs_world ? state.objects.areChanged() : !state.objects.isSameList(stream.sent_objects)) {
+    encode(state.objects, *frame.mutable_objects());
+  }
+  stream.sent_objects = state.objects;
   stream.sent_robots.resize(run_info.robot_names.size());
   for (std::size_t i = 0; i < stream.sent_robots.size(); ++i) {
     const RobotSnapshot robot = withoutReadings(state, i);
@@ -133,6 +141,7 @@ void ViewerSession::send(Stream& stream) {
   addPictures(stream, frame, repeats_pictures);
   stream.needs_world = false;
   stream.step = state.time.step;
+  stream.pose_changes = run_info.environment.poseChanges();
   stream.post();
   stream.answered();
 }

@@ -10,7 +10,7 @@ namespace robosim {
 /// against the latter.
 
 /// Protocol version that both ends must use.
-constexpr std::uint32_t kGeometryProtocolVersion = 3;
+constexpr std::uint32_t kGeometryProtocolVersion = 4;
 /// @throws WireError unless `version` is kGeometryProtocolVersion.
 void checkGeometryProtocol(std::uint32_t version);
 

@@ -55,7 +55,7 @@ TEST(GeometrySeal, NamesBothProtocolVersions) {
     EXPECT_EQ(error.status().error_code(), grpc::StatusCode::FAILED_PRECONDITION);
     EXPECT_STREQ(
         error.what(),
-        "the geometry worker uses version 1 of the geometry protocol, the environment version 3; install the same "
+        "the geometry worker uses version 1 of the geometry protocol, the environment version 4; install the same "
         "version of robosim at both ends");
   }
 }

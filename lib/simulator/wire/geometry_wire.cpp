@@ -1,7 +1,10 @@
 #include "wire/geometry_wire.h"
 
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "environment/intervention_bytes.h"
 #include "environment/step_phases.h"
 #include "net/robot_wire.h"
 #include "wire/plausible_echoes.h"
@@ -53,6 +56,9 @@ void encode(const State& state, internal::ReplicaState& out) {
     robot.set_activity(encode(state.activity[i]));
     encode(state.commands[i], *robot.mutable_command());
   }
+  StateWriter objects;
+  writeObjects(state.objects, objects);
+  out.set_objects(std::move(objects.bytes));
 }
 
 void decodeInto(const internal::ReplicaState& in, State& state) {
@@ -69,6 +75,13 @@ void decodeInto(const internal::ReplicaState& in, State& state) {
     state.turn_radps[i] = checkedFinite(robot.turn_radps());
     state.activity[i] = *activity;
     state.commands[i] = decode(robot.command(), static_cast<std::uint32_t>(i));
+  }
+  try {
+    StateReader objects(in.objects());
+    state.objects = readObjects(objects);
+    if (!objects.isAtEnd()) throw WireError("a state with objects of another form");
+  } catch (const InvalidContents& fault) {
+    throw WireError(std::string("a state with invalid objects: ") + fault.what());
   }
 }
 

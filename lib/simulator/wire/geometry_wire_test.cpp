@@ -70,6 +70,10 @@ TEST(GeometryWire, RefusesAStateOfAnotherWorldOrThatIsNotFinite) {
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(0)->set_activity(static_cast<v1::Activity>(9)); }),
             "a state with an unknown activity");
   EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_robots(0)->mutable_command()->set_speed_mps(kNan); }), "");
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.clear_objects(); }),
+            "a state with invalid objects: they end too early");
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_objects()->push_back('x'); }),
+            "a state with objects of another form");
 }
 
 TEST(GeometryWire, RoundTripsMeasurements) {

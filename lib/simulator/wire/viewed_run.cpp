@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
+#include "base/error_list.h"
 #include "net/robot_wire.h"
 #include "wire/world_wire.h"
+#include "world/intervention.h"
 
 namespace robosim {
 namespace {
@@ -71,6 +74,23 @@ Readings& takeReadings(ViewedRun& run, std::size_t robot) {
   return *readings;
 }
 
+ChangedObjects decode(const v1::FrameObjects& in) {
+  if (in.are_of_world()) return {};
+  std::vector<WorldObject> objects;
+  for (const std::string& element : in.elements()) {
+    try {
+      const Change change = parseChange(element, "object");
+      if (const auto* added = std::get_if<AddObject>(&change)) {
+        objects.push_back(added->object);
+        continue;
+      }
+    } catch (const ConfigError&) {
+    }
+    throw WireError("a frame with an invalid object");
+  }
+  return ChangedObjects(std::move(objects));
+}
+
 void checkRobot(std::uint32_t robot, const ViewedRun& run) {
   if (robot >= run.snapshot.robots.size()) throw WireError("a frame with a robot that the world does not have");
 }
@@ -96,6 +116,12 @@ ReadingsSelection decode(const v1::FrameRequest& in, std::size_t robots) {
   return selection;
 }
 
+void encode(const ChangedObjects& objects, v1::FrameObjects& out) {
+  out.set_are_of_world(!objects.areChanged());
+  const std::vector<WorldObject> none;
+  for (const WorldObject& object : objects.orThose(none)) out.add_elements(changeText(AddObject{object}));
+}
+
 void encode(const RobotSnapshot& snapshot, std::size_t robot, v1::RobotView& out) {
   out.set_world_robot(static_cast<std::uint32_t>(robot));
   out.set_x_m(snapshot.world_from_robot.x);
@@ -118,7 +144,11 @@ void encode(const std::vector<Readings>& readings, const ReadingsSelection& sele
 }
 
 bool update(ViewedRun& run, const v1::Frame& frame) {
-  if (frame.has_world()) loadWorldFrom(run, frame);
+  if (frame.has_world()) {
+    loadWorldFrom(run, frame);
+    run.snapshot.objects = {};
+  }
+  if (frame.has_objects()) run.snapshot.objects = decode(frame.objects());
   run.winner = frame.winner();
   RunSnapshot& snapshot = run.snapshot;
   snapshot.step = frame.step();

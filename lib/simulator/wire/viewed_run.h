@@ -49,6 +49,8 @@ void encode(const ReadingsSelection& selection, v1::FrameRequest& out);
 /// @param robots number of robots; higher indices are ignored
 ReadingsSelection decode(const v1::FrameRequest& in, std::size_t robots);
 
+void encode(const ChangedObjects& objects, v1::FrameObjects& out);
+
 /// Encodes a robot's state without readings.
 void encode(const RobotSnapshot& snapshot, std::size_t robot, v1::RobotView& out);
 /// Steps of the last readings that a viewer has received, by robot; nullopt for a robot without any.

@@ -43,6 +43,25 @@ void add(const std::vector<Readings>& readings, const ReadingsSelection& selecti
   encode(readings, selection, sent_steps, out);
 }
 
+TEST(ViewedRun, HasTheObjectsOfTheLastFrameWithAny) {
+  ViewedRun run = runAfter(firstFrame());
+  EXPECT_FALSE(run.snapshot.objects.areChanged());
+  const auto& of_world = run.world.world.objects;
+  const ChangedObjects moved(withChange(of_world, PlaceBody{of_world[0].name, 1.0 / 3, -2, 0.7}));
+  v1::Frame frame;
+  encode(moved, *frame.mutable_objects());
+  update(run, frame);
+  EXPECT_EQ(run.snapshot.objects, moved);
+  update(run, v1::Frame());
+  EXPECT_EQ(run.snapshot.objects, moved) << "those of a frame without any are unchanged";
+  encode(ChangedObjects(), *frame.mutable_objects());
+  update(run, frame);
+  EXPECT_FALSE(run.snapshot.objects.areChanged());
+  frame.mutable_objects()->set_are_of_world(false);
+  frame.mutable_objects()->add_elements("<remove name='a'/>");
+  EXPECT_THROW(update(run, frame), WireError);
+}
+
 TEST(ViewedRun, HasTheReadingsOfAFrameForThatFrameOnly) {
   const std::vector<Readings> measured = readingsOfTheMaze();
   ViewedRun run = runAfter(firstFrame());

@@ -7,6 +7,7 @@
 #include "base/error_list.h"
 #include "base/label.h"
 #include "base/type_choice.h"
+#include "world/body_xml.h"
 
 namespace robosim {
 
@@ -16,7 +17,7 @@ WorldObject PlacementReader::readPrimitive(XmlReader& primitive, Place place) {
   if (auto solid = solidIn(primitive)) {
     object.line = solid->line();
     object.name = place == Place::given ? readName(*solid) : solid->word("name");
-    object.body = readBody(*solid, place);
+    object.body = readBody(*solid, world_.unit_m, place == Place::given);
     object.stationary = solid->flag("stationary", true);
     solid->finish();
   } else {
@@ -32,7 +33,7 @@ RobotPlacement PlacementReader::readRobot(XmlReader& robot, Place place) {
   placement.model = robot.word("model", "");
   if (auto solid = solidIn(robot)) {
     placement.name = readRobotName(*solid, place);
-    placement.body = readBody(*solid, place);
+    placement.body = readBody(*solid, world_.unit_m, place == Place::given);
     placement.world_from_robot = placement.body->world_from_body;
     solid->flag("stationary", false);  // 2005 files set it for robots too; ignored
     solid->finish();
@@ -81,49 +82,12 @@ void PlacementReader::readController(XmlReader& robot, RobotPlacement& placement
   placement.controller = choice.text();
 }
 
-/// The <cylinder> or <cube> inside; nullopt if there is none.
-std::optional<XmlReader> PlacementReader::solidIn(XmlReader& owner) {
-  auto cylinder = owner.child("cylinder");
-  auto cube = owner.child("cube");
-  if (cylinder && cube) cube->error("is given beside a <cylinder>; keep one");
-  return cylinder ? cylinder : cube;
-}
-
-Body PlacementReader::readBody(XmlReader& solid, Place place) {
-  Body body;
-  if (solid.name() == "cylinder") {
-    body.shape = Cylinder{length(solid, "radius", Bounds::positive())};
-  } else {
-    const double length_m = length(solid, "length", Bounds::positive());
-    body.shape = Cube{length_m, length(solid, "width", Bounds::positive())};
-  }
-  if (place == Place::given) body.world_from_body = readPose(solid);
-  body.center_z_m = length(solid, "z");
-  body.height_m = length(solid, "height", Bounds::positive());
-  if (const auto color = readColor(solid)) body.color = *color;
-  body.heat_celsius = solid.number("hot", Bounds::notNegative(), 0);
-  body.reflectivity = solid.number("reflectivity", {0, 1}, kReflectivity);
-  return body;
-}
-
 /// A robot without a position gets the next start pose that a map gives.
 mrpt::math::TPose2D PlacementReader::readPlace(XmlReader& robot) {
-  if (robot.has("x") || robot.has("y") || next_start_ == starts_.size()) return readPose(robot);
+  if (robot.has("x") || robot.has("y") || next_start_ == starts_.size()) return readPose(robot, world_.unit_m);
   mrpt::math::TPose2D start = starts_[next_start_++];
   start.phi = robot.number("direction", Bounds::any(), start.phi);
   return start;
-}
-
-mrpt::math::TPose2D PlacementReader::readPose(XmlReader& reader) {
-  const double x = length(reader, "x");
-  const double y = length(reader, "y");
-  return {x, y, reader.number("direction", Bounds::any(), 0)};
-}
-
-std::optional<std::array<float, 3>> PlacementReader::readColor(XmlReader& reader) {
-  const auto rgb = reader.numbers("color", 3, {0, 1}, {});
-  if (rgb.empty()) return std::nullopt;
-  return std::array{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
 
 std::string PlacementReader::readName(XmlReader& reader) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -24,7 +23,6 @@ class PlacementReader {
 
   WorldObject readPrimitive(XmlReader& primitive, Place place);
   RobotPlacement readRobot(XmlReader& robot, Place place);
-  static std::optional<std::array<float, 3>> readColor(XmlReader& reader);
 
   /// Adds a start pose in the world frame, given by a map; robots without a position get these in order.
   void addStart(const mrpt::math::TPose2D& start) { starts_.push_back(start); }
@@ -43,15 +41,9 @@ class PlacementReader {
   };
 
   void readController(XmlReader& robot, RobotPlacement& placement);
-  std::optional<XmlReader> solidIn(XmlReader& owner);
-  Body readBody(XmlReader& solid, Place place);
   mrpt::math::TPose2D readPlace(XmlReader& robot);
-  mrpt::math::TPose2D readPose(XmlReader& reader);
   std::string readName(XmlReader& reader);
   std::string readRobotName(XmlReader& reader, Place place);
-  double length(XmlReader& reader, const char* tag, Bounds bounds = Bounds::any()) {
-    return reader.length(tag, bounds, world_.unit_m);
-  }
   std::vector<std::string> robotNames() const;
   bool isOwnCopy(const Neighbour& neighbour) const;
 

@@ -2,23 +2,7 @@
 
 #include <filesystem>
 
-#include "base/portable_math.h"
-
 namespace robosim {
-
-Solid Body::solid() const {
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-    return {Circle{{world_from_body.x, world_from_body.y}, cylinder->radius_m}, heights()};
-  }
-  const auto& cube = std::get<Cube>(shape);
-  return {OrientedBox::from(world_from_body, cube.length_m, cube.width_m), heights()};
-}
-
-double Body::coveringRadius() const {
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return cylinder->radius_m;
-  const auto& cube = std::get<Cube>(shape);
-  return portable::hypot(cube.length_m, cube.width_m) / 2;
-}
 
 std::string Scatter::nameOf(int number) const {
   return std::visit([](const auto& it) { return it.name; }, copied) + std::to_string(number);
@@ -45,11 +29,13 @@ std::vector<Solid> unknownOf(const WorldMap& map) {
   return boxes;
 }
 
-std::vector<Solid> stationarySolids(const World& world) {
+std::vector<Solid> stationarySolids(const World& world) { return stationarySolids(world.objects, world.maps); }
+
+std::vector<Solid> stationarySolids(const std::vector<WorldObject>& objects, const std::vector<WorldMap>& maps) {
   std::vector<Solid> solids;
-  solids.reserve(world.objects.size());
-  for (const auto& object : world.objects) solids.push_back(object.body.solid());
-  for (const auto& map : world.maps) addSolids(map.plan, map.world_from_map, map.heights(), solids);
+  solids.reserve(objects.size());
+  for (const auto& object : objects) solids.push_back(object.body.solid());
+  for (const auto& map : maps) addSolids(map.plan, map.world_from_map, map.heights(), solids);
   return solids;
 }
 

@@ -9,48 +9,13 @@
 
 #include "base/xml_element.h"
 #include "geometry/shapes/solid.h"
+#include "world/body.h"
+#include "world/communication.h"
 #include "world/floor_plan.h"
+#include "world/intervention.h"
 #include "world/map_reader.h"
 
 namespace robosim {
-
-struct Cylinder {
-  double radius_m = 0;
-  bool operator==(const Cylinder&) const = default;
-};
-struct Cube {           ///< a box, named as in 2005
-  double length_m = 0;  ///< along the body's x axis
-  double width_m = 0;
-  bool operator==(const Cube&) const = default;
-};
-
-/// Default of Body::reflectivity: painted walls and wood return 0.4 to 0.8 of near-infrared light.
-constexpr double kReflectivity = 0.5;
-
-/// An upright solid with colour and temperature, as described by <cylinder> or <cube> of a 2005 file.
-struct Body {
-  std::variant<Cylinder, Cube> shape;
-  mrpt::math::TPose2D world_from_body;           ///< of its centre, in plan; phi is the file's direction [rad]
-  double center_z_m = 0;                         ///< height of its centre above the ground
-  double height_m = 0;                           ///< > 0
-  std::array<float, 3> color{0.5f, 0.5f, 0.5f};  ///< red, green, blue, each in [0, 1]
-  double heat_celsius = 0;                       ///< the file's `hot`; 0 gives off no heat
-  double reflectivity = kReflectivity;           ///< share of a laser's light that it returns, [0, 1]
-  bool operator==(const Body&) const = default;
-
-  Solid solid() const;
-  /// Radius [m] of the smallest disc about the centre that covers it in plan.
-  double coveringRadius() const;
-  HeightSpan heights() const { return {center_z_m - height_m / 2, center_z_m + height_m / 2}; }
-};
-
-struct WorldObject {
-  std::string name;
-  Body body;
-  bool stationary = true;  ///< kept for the file format only: objects other than robots never move
-  SourceLine line;
-  bool operator==(const WorldObject&) const = default;
-};
 
 /// A map placed in the world; its occupied cells become walls.
 struct WorldMap {
@@ -121,25 +86,6 @@ struct WorldOrigin {
   bool operator==(const WorldOrigin&) const { return true; }
 };
 
-/// Limits and errors of the robots' communication (environment/radio_channel.h).
-struct Communication {
-  std::optional<double> range_m = std::nullopt;  ///< between robots' centres; nullopt: unlimited
-  double loss_probability = 0;                   ///< of each message, [0, 1]
-  double wall_range_m = 0;                       ///< range that each wall between the robots takes, [0, 1e9]
-  double wall_loss = 0;                          ///< probability that a message is lost at each wall, [0, 1]
-  double burst_gap_s = 0;                        ///< mean time between bursts of losses, [0, 3600]; 0: there are none
-  double burst_s = 1;                            ///< mean duration of a burst, (0, 3600]
-  double burst_loss = 1;                         ///< probability that a message is lost in a burst, [0, 1]
-  double delay_s = 0;                            ///< beyond the next step, rounded up to whole steps, [0, 60]
-  double rate_hz = 0;                            ///< messages that a robot may send per second, [0, 1e6]; 0: unlimited
-  bool operator==(const Communication&) const = default;
-
-  bool hasWalls() const { return wall_range_m > 0 || wall_loss > 0; }
-  bool hasBursts() const { return burst_gap_s > 0 && burst_loss > 0; }
-  /// Whether it depends on the run's seed.
-  bool isRandom() const { return loss_probability > 0 || wall_loss > 0 || hasBursts(); }
-};
-
 /// Default of the maximum distance to the gold, from outline to outline, at which a robot wins: an operator can judge
 /// it by eye, and it does not reach through a wall into the next cell of the mazes.
 constexpr double kWinDistance_m = 0.5;
@@ -158,7 +104,8 @@ struct World {
   std::vector<WorldObject> objects;
   std::vector<WorldMap> maps;
   std::vector<RobotPlacement> robots;
-  std::vector<Scatter> scatters;  ///< not yet placed
+  std::vector<Scatter> scatters;      ///< not yet placed
+  std::vector<TimedChange> timeline;  ///< by time; of equal times in the file's order
   WorldOrigin origin;
   bool operator==(const World&) const = default;
 
@@ -171,5 +118,6 @@ std::vector<Solid> unknownOf(const WorldMap&);
 
 /// All stationary solids: first the objects, in their order, then those of each map.
 std::vector<Solid> stationarySolids(const World&);
+std::vector<Solid> stationarySolids(const std::vector<WorldObject>& objects, const std::vector<WorldMap>& maps);
 
 }  // namespace robosim

@@ -10,6 +10,7 @@
 #include "base/portable_pose.h"
 #include "base/xml_parser.h"
 #include "base/xml_reader.h"
+#include "world/body_xml.h"
 #include "world/caching_file_provider.h"
 #include "world/included_files.h"
 #include "world/placement_reader.h"
@@ -18,10 +19,6 @@
 
 namespace robosim {
 namespace {
-
-/// Maximum of the mean durations of bursts of losses and of the times between them: the state of a channel is searched
-/// back over about as many steps, for each message.
-constexpr double kBurstMax_s = 3600;
 
 /// Maximum length unit; files use kilometres at most.
 constexpr double kUnitMax_m = 1000;
@@ -51,7 +48,9 @@ class WorldReader {
     XmlReader surface = root_.requiredChild("surface");
     readSurface(surface);
     scatters_.checkNames();
-    if (auto communication = root_.child("communication")) readCommunication(*communication);
+    if (auto communication = root_.child("communication"))
+      world_.communication = readCommunication(*communication, world_.unit_m);
+    readTimeline();
     root_.finish();
     placements_.checkNeighbours();
     return std::move(world_);
@@ -123,7 +122,7 @@ class WorldReader {
     const auto place = [&](const char* tag) { return reader.length(tag, Bounds::any(), world_.unit_m, 0); };
     map.world_from_map = {place("x"), place("y"), reader.number("direction", Bounds::any(), 0)};
     map.height_m = reader.length("height", Bounds::positive(), world_.unit_m, map.height_m);
-    if (const auto color = PlacementReader::readColor(reader)) map.color = *color;
+    if (const auto color = readColor(reader)) map.color = *color;
     try {
       if (errors_.count() == faults) readMapSettings(reader, mapFormatOf(map.file), map.reading);
       reader.finish();
@@ -164,23 +163,17 @@ class WorldReader {
     reading.negate = reader.flag("negate", reading.negate);
   }
 
-  void readCommunication(XmlReader& communication) {
-    if (communication.has("range")) {
-      world_.communication.range_m = length(communication, "range", Bounds::positive());
+  /// <at time="20"> with changes, in seconds of simulated time.
+  void readTimeline() {
+    for (auto& at : root_.all("at")) {
+      const double time_s = at.number("time", Bounds::notNegative());
+      for (auto& element : at.all())
+        world_.timeline.push_back({time_s, readChange(element, world_.unit_m), element.line()});
+      if (at.element().children.empty()) at.error("contains no change; add one, such as <place>");
+      at.finish();
     }
-    world_.communication.loss_probability = communication.number("loss", {0, 1}, 0);
-    Communication& c = world_.communication;
-    if (communication.has("wall_range")) c.wall_range_m = length(communication, "wall_range", Bounds::notNegative());
-    if (communication.has("wall_range") && !c.range_m) {
-      communication.errorAt("wall_range", "shortens the range, and there is none; add <range>");
-    }
-    c.wall_loss = communication.number("wall_loss", {0, 1}, c.wall_loss);
-    c.burst_gap_s = communication.number("burst_gap_s", Bounds::notNegative(kBurstMax_s), c.burst_gap_s);
-    c.burst_s = communication.number("burst_s", Bounds::positive(kBurstMax_s), c.burst_s);
-    c.burst_loss = communication.number("burst_loss", {0, 1}, c.burst_loss);
-    c.delay_s = communication.number("delay_s", {0, 60}, c.delay_s);
-    c.rate_hz = communication.number("rate_hz", {0, 1e6}, c.rate_hz);
-    communication.finish();
+    std::stable_sort(world_.timeline.begin(), world_.timeline.end(),
+                     [](const TimedChange& a, const TimedChange& b) { return a.time_s < b.time_s; });
   }
 
   void readObject(XmlReader& object) {

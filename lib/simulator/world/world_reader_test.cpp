@@ -169,11 +169,12 @@ TEST(WorldReader, RejectsUnknownTags) {
   EXPECT_EQ(faults(worldOf({"<primitve/>"})),
             (Lines{"a.xml:2: <shape>: contains neither a <primitive> nor a <robot>; add one",
                    "a.xml:2: <primitve>: unknown tag in <shape>; accepted here are: primitive, robot"}));
-  EXPECT_EQ(faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
-            (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: include, map, object, scatter, "
-                   "size, type",
-                   "a.xml:1: <world>: unknown attribute size=\"3\"; accepted here are: communication, surface, unit_m, "
-                   "win_distance"}));
+  EXPECT_EQ(
+      faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
+      (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: include, map, object, scatter, "
+             "size, type",
+             "a.xml:1: <world>: unknown attribute size=\"3\"; accepted here are: at, communication, surface, unit_m, "
+             "win_distance"}));
 }
 
 TEST(WorldReader, RejectsMissingAndMalformedValues) {

@@ -1,21 +1,12 @@
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 
 #include "base/type_choice.h"
+#include "world/body_xml.h"
 #include "world/world_file.h"
 
 namespace robosim {
 namespace {
-
-/// The shortest text that, parsed as a double, gives exactly `value`.
-std::string floatText(float value) {
-  char buffer[32];
-  const std::string text{buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-  // Double rounding from decimal to double to float may be wrong for a number very close to the middle between two
-  // floats.
-  return static_cast<float>(toNumber(text, 1)) == value ? text : toText(static_cast<double>(value));
-}
 
 class WorldWriter {
  public:
@@ -40,14 +31,19 @@ class WorldWriter {
     addLength(size, "ymax", world_.bounds.y_max);
     for (const auto& map : world_.maps) addMap(surface.add("map"), map);
     for (const auto& object : world_.objects) {
-      addBody(surface.add("object").add("shape").add("primitive"), object.name, object.body, object.stationary,
-              Place::given);
+      addBody(surface.add("object").add("shape").add("primitive"), object, Place::given);
     }
     for (const auto& robot : world_.robots) {
       addRobot(surface.add("object").add("shape").add("robot"), robot, Place::given);
     }
     for (const auto& scatter : world_.scatters) addScatter(surface.add("scatter"), scatter);
-    addCommunication(root);
+    if (world_.communication != Communication{})
+      writeCommunication(world_.communication, world_.unit_m, root.add("communication"));
+    for (const auto& timed : world_.timeline) {
+      XmlElement& at = root.add("at");
+      at.attributes.emplace_back("time", toText(timed.time_s));
+      at.children.push_back(toElement(timed.change, world_.unit_m));
+    }
     return root;
   }
 
@@ -78,32 +74,13 @@ class WorldWriter {
       addRobot(element.add("robot"), *robot, Place::scattered);
     } else {
       const auto& object = std::get<WorldObject>(scatter.copied);
-      addBody(element.add("primitive"), object.name, object.body, object.stationary, Place::scattered);
+      addBody(element.add("primitive"), object, Place::scattered);
     }
-  }
-
-  void addCommunication(XmlElement& root) const {
-    const Communication& communication = world_.communication;
-    if (communication == Communication{}) return;
-    XmlElement& element = root.add("communication");
-    if (communication.range_m) addLength(element, "range", *communication.range_m);
-    if (communication.loss_probability != 0) element.add("loss", toText(communication.loss_probability));
-    if (communication.wall_range_m != 0) addLength(element, "wall_range", communication.wall_range_m);
-    const Communication defaults;
-    const auto add = [&](const char* name, double value, double otherwise) {
-      if (value != otherwise) element.add(name, toText(value));
-    };
-    add("wall_loss", communication.wall_loss, defaults.wall_loss);
-    add("burst_gap_s", communication.burst_gap_s, defaults.burst_gap_s);
-    add("burst_s", communication.burst_s, defaults.burst_s);
-    add("burst_loss", communication.burst_loss, defaults.burst_loss);
-    add("delay_s", communication.delay_s, defaults.delay_s);
-    add("rate_hz", communication.rate_hz, defaults.rate_hz);
   }
 
   void addMap(XmlElement& element, const WorldMap& map) const {
     element.add("file", map.file);
-    addPose(element, map.world_from_map);
+    writePose(map.world_from_map, world_.unit_m, element);
     addLength(element, "height", map.height_m);
     element.add("color", colorText(map.color));
     const MapFormat format = mapFormatOf(map.file);
@@ -123,10 +100,10 @@ class WorldWriter {
     if (robot.body) {
       Body body = *robot.body;
       body.world_from_body = robot.world_from_robot;
-      addBody(element, robot.name, body, false, place);
+      addBody(element, {robot.name, body, false, {}}, place);
     } else {
       element.add("name", robot.name);
-      if (place == Place::given) addPose(element, robot.world_from_robot);
+      if (place == Place::given) writePose(robot.world_from_robot, world_.unit_m, element);
       if (robot.color) element.add("color", colorText(*robot.color));
     }
     addSensors(element, robot.sensors);
@@ -153,38 +130,12 @@ class WorldWriter {
     place.insert(place.end(), sensors.begin(), sensors.end());
   }
 
-  void addBody(XmlElement& owner, const std::string& name, const Body& body, bool stationary, Place place) const {
-    const auto* cylinder = std::get_if<Cylinder>(&body.shape);
-    XmlElement& element = owner.add(cylinder ? "cylinder" : "cube");
-    element.add("name", name);
-    if (place == Place::given) addPose(element, body.world_from_body);
-    addLength(element, "z", body.center_z_m);
-    if (cylinder) {
-      addLength(element, "radius", cylinder->radius_m);
-    } else {
-      const auto& cube = std::get<Cube>(body.shape);
-      addLength(element, "length", cube.length_m);
-      addLength(element, "width", cube.width_m);
-    }
-    addLength(element, "height", body.height_m);
-    element.add("color", colorText(body.color));
-    element.add("hot", toText(body.heat_celsius));
-    if (body.reflectivity != kReflectivity) element.add("reflectivity", toText(body.reflectivity));
-    element.add("stationary", stationary ? "1" : "0");
-  }
-
-  void addPose(XmlElement& element, const mrpt::math::TPose2D& pose) const {
-    addLength(element, "x", pose.x);
-    addLength(element, "y", pose.y);
-    element.add("direction", toText(pose.phi));
+  void addBody(XmlElement& element, const WorldObject& object, Place place) const {
+    writeBody(object, world_.unit_m, place == Place::given, element);
   }
 
   void addLength(XmlElement& element, const char* tag, double length_m) const {
     element.add(tag, toText(length_m, world_.unit_m));
-  }
-
-  static std::string colorText(const std::array<float, 3>& color) {
-    return floatText(color[0]) + " " + floatText(color[1]) + " " + floatText(color[2]);
   }
 
   const World& world_;

@@ -23,7 +23,8 @@ std::vector<std::optional<mrpt::math::TPose2D>> presentPoses(const State& state)
 /// Thrown when the picture cannot be written at the end; not bad input, because the path was checked at the start.
 void draw(const std::string& picture, const Environment& environment, const Tracks& tracks) {
   try {
-    writePlan(picture, environment.world(), environment.fleet(), tracks.points(), presentPoses(environment.state()));
+    writePlan(picture, environment.presentWorld(), environment.fleet(), tracks.points(),
+              presentPoses(environment.state()));
   } catch (const ConfigError& error) {
     throw std::runtime_error(error.what());
   }
@@ -75,7 +76,7 @@ void RunOutputs::setRecording(bool on, const LocalRun& run) {
   if (on) {
     recording_->openNext(run.environment().state());
   } else {
-    recording_->close(summaryOf(run, EndedBy::recording_stopped));
+    recording_->close(run.environment().state(), summaryOf(run, EndedBy::recording_stopped));
   }
 }
 
@@ -103,7 +104,7 @@ void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, st
   std::exception_ptr failure;
   bool is_drawn = false;
   try {
-    if (recording_) recording_->finish(summary);
+    if (recording_) recording_->finish(run.environment().state(), summary);
     if (tracks_) draw(arguments_.picture, run.environment(), *tracks_);
     is_drawn = tracks_ != nullptr;
   } catch (const std::exception&) {

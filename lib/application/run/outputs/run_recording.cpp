@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "recording/recording_error.h"
+#include "run/outputs/intervention_note.h"
 
 namespace robosim {
 
@@ -28,6 +29,7 @@ void RunRecording::openNext(const State& state) {
 
 void RunRecording::open(const std::filesystem::path& file, const SimTime& start) {
   failure_.clear();
+  is_new_part_ = true;
   note_.outcome = nullptr;
   note_.first_step = start.step;
   writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
@@ -39,7 +41,9 @@ void RunRecording::open(const std::filesystem::path& file, const SimTime& start)
 void RunRecording::write(const State& state) {
   if (!writer_ || last_step_ == state.time.step) return;
   try {
-    writer_->write(state.readings, state.world_from_robot, state.commands);
+    writer_->write(state.readings, state.world_from_robot, state.commands,
+                   notesBefore(state, state.time.step, is_new_part_));
+    is_new_part_ = false;
   } catch (const RecordingError& error) {
     if (!is_requested_) throw;
     const auto writer = std::move(writer_);
@@ -50,23 +54,23 @@ void RunRecording::write(const State& state) {
   last_step_ = state.time.step;
 }
 
-void RunRecording::close(const RunSummary& outcome) {
+void RunRecording::close(const State& state, const RunSummary& outcome) {
   if (!writer_) return;
   note_.outcome = outcome.json();
   // The file of a repeated run is identical regardless of its duration.
   for (const char* of_the_clock : {"wall_s", "real_time_factor"}) note_.outcome.erase(of_the_clock);
   const auto writer = std::move(writer_);
   try {
-    writer->close(note_.text());
+    writer->close(note_.text(), notesBefore(state, state.time.step + 1, false));
   } catch (...) {
     discard(*writer);
     throw;
   }
 }
 
-void RunRecording::finish(const RunSummary& outcome) {
+void RunRecording::finish(const State& state, const RunSummary& outcome) {
   try {
-    close(outcome);
+    close(state, outcome);
   } catch (const RecordingError& error) {
     if (!is_requested_) throw;
     failure_ = error.what();

@@ -43,11 +43,12 @@ class RunRecording {
   /// @throws RecordingError when the part of open() cannot be written
   void write(const State& state);
   /// Completes the current part, whose last note has this outcome; no effect while the recording is off.
+  /// @param state the present one, with the interventions since the last step
   /// @throws RecordingError when the part cannot be completed: it is discarded, and the recording is off.
-  void close(const RunSummary& outcome);
+  void close(const State& state, const RunSummary& outcome);
   /// close() at the end of the run. When a part of openNext() cannot be completed, failure() states the reason.
   /// @throws RecordingError when the part of open() cannot be completed
-  void finish(const RunSummary& outcome);
+  void finish(const State& state, const RunSummary& outcome);
   /// Why write() or finish() has discarded the last part; empty if they have not.
   const std::string& failure() const { return failure_; }
   /// Completes the current part without a last note. @throws RecordingError
@@ -64,6 +65,7 @@ class RunRecording {
   RunNote note_;
   std::unique_ptr<RawlogWriter> writer_;  ///< null while the recording is off
   bool is_requested_ = false;             ///< the current or last part is of openNext()
+  bool is_new_part_ = false;              ///< no step of the part has been written
   std::string failure_;
   std::optional<std::uint64_t> last_step_;  ///< recorded
   std::filesystem::path file_, previous_file_;

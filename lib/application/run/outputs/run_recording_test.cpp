@@ -38,7 +38,7 @@ struct RunRecordingTest : TestFolder {
       recording.write(run.environment().state());
     }
   }
-  void stop(RunRecording& recording) { recording.close(RunSummary::of(run)); }
+  void stop(RunRecording& recording) { recording.close(run.environment().state(), RunSummary::of(run)); }
 
   /// Steps of the observations in a file, of its first and last note, and each step once in between.
   std::vector<std::uint64_t> stepsOf(const std::string& name) const {
@@ -155,7 +155,7 @@ TEST_F(RunRecordingTest, DiscardsARequestedPartThatCannotBeCompletedAtTheEndOfTh
   RunRecording recording = recordingTo("run.rawlog");
   recording.openNext(run.environment().state());
   std::filesystem::create_directory(in("run.rawlog"));  // instead of a full disk
-  recording.finish(RunSummary::of(run));
+  recording.finish(run.environment().state(), RunSummary::of(run));
   EXPECT_NE(recording.failure().find("run.rawlog"), std::string::npos) << recording.failure();
   EXPECT_TRUE(recording.files().empty());
 }
@@ -174,7 +174,7 @@ TEST_F(RunRecordingTest, StatesTheOutcomeAtTheEndWithoutWhatDependsOnTheClock) {
   RunSummary summary = RunSummary::of(run);
   summary.ended_by = EndedBy::recording_stopped;
   summary.wall_s = 5;
-  recording.close(summary);
+  recording.close(run.environment().state(), summary);
   RawlogReader reader(in("run.rawlog"));
   std::optional<RunNote> last;
   while (const auto observation = reader.next()) {

@@ -38,7 +38,7 @@ class CountedPictures {
 
   class Images final : public ImageSource {
    public:
-    void take(const CameraView&, std::span<const mrpt::math::TPose2D>, std::span<const std::uint32_t> robots,
+    void take(const CameraView&, const SeenWorld&, std::span<const std::uint32_t> robots,
               std::span<std::string> jpegs) override {
       for (std::size_t i = 0; i < robots.size(); ++i) {
         ++counts().at(robots[i]);

@@ -38,10 +38,10 @@ constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of se
 /// Makes bytes that depend on the pose, between the marks of a JPEG file.
 class PoseImages : public ImageSource {
  public:
-  void take(const CameraView&, std::span<const mrpt::math::TPose2D> world_from_robot,
-            std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override {
+  void take(const CameraView&, const SeenWorld& seen, std::span<const std::uint32_t> robots,
+            std::span<std::string> jpegs) override {
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      jpegs[i] = "\xFF\xD8" + std::to_string(world_from_robot[robots[i]].x) + "\xFF\xD9";
+      jpegs[i] = "\xFF\xD8" + std::to_string(seen.world_from_robot[robots[i]].x) + "\xFF\xD9";
     }
   }
   /// Finds none.
@@ -75,6 +75,42 @@ World randomWorld(Rng& rng) {
     world.robots.push_back(placement);
   }
   return world;
+}
+
+/// Changes the run at random, in about one of six steps; impossible changes are refused.
+void intervene(Environment& environment, Rng rng) {
+  if (rng.below(6) != 0) return;
+  const auto& objects = environment.objects();
+  const std::string object = objects[rng.below(static_cast<std::uint32_t>(objects.size()))].name;
+  const double x_m = rng.uniform(-4.2, 4.2), y_m = rng.uniform(-4.2, 4.2), heading_rad = rng.uniform(-3, 3);
+  const auto change = [&]() -> Change {
+    switch (rng.below(7)) {
+      case 0:
+        return PlaceBody{object, x_m, y_m, heading_rad};
+      case 1:
+        return PlaceBody{nameOf(rng.below(ProbeRun::kRobots)), x_m, y_m, heading_rad};
+      case 2: {
+        WorldObject added = objects.front();
+        added.name = "added " + std::to_string(environment.time().step);
+        added.body.world_from_body = {x_m, y_m, heading_rad};
+        return AddObject{added};
+      }
+      case 3:
+        if (objects.size() > 2) return RemoveBody{object};
+        [[fallthrough]];
+      case 4:
+        return ChangeObject{object, rng.below(2) * 30.0, {{0.1f, 0.2f, 0.3f}}, rng.uniform(0.1, 2), rng.uniform()};
+      case 5:
+        return ChangeActivity{nameOf(rng.below(ProbeRun::kRobots)), Activity::active};
+      default: {
+        Communication communication = environment.communication();
+        communication.delay_s = rng.uniform(0, 0.4);
+        communication.loss_probability = rng.uniform(0, 0.3);
+        return ChangeRadio{communication};
+      }
+    }
+  };
+  static_cast<void>(environment.apply({"test", change()}));
 }
 
 }  // namespace
@@ -119,8 +155,9 @@ void ProbeRun::prepare(Environment& environment) const {
     if (rng.below(30) == 0) environment.checkWin(i);
     const bool is_absent = environment.state().activity[i] == Activity::absent;
     if (!is_absent && rng.below(150) == 0) environment.remove(i);
-    if (is_absent && rng.below(20) == 0) environment.place(i, environment.fleet().robots[i].world_from_start);
+    if (is_absent && rng.below(20) == 0) environment.enter(i);
   }
+  intervene(environment, Rng(seed_, RandomPurpose::test, kRobots, 1, step));
 }
 
 std::uint32_t ProbeRun::random(std::uint32_t n) const { return Rng(seed_, RandomPurpose::test, 0, 2).below(n); }

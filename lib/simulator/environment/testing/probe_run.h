@@ -8,8 +8,8 @@
 namespace robosim {
 
 /// Random runs for tests, with everything that a State contains: sensors of every kind with all of their errors,
-/// pictures, messages that are lost or late, stalls, robots that halt, leave and come back, and requests of CheckWin. A
-/// run depends on its seed only.
+/// pictures, messages that are lost or late, stalls, robots that halt, leave and come back, interventions, and requests
+/// of CheckWin. A run depends on its seed only.
 class ProbeRun {
  public:
   static constexpr std::uint32_t kRobots = 9;

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "environment/state.h"
+#include "world/intervention.h"
+
+namespace robosim {
+
+/// An intervention in a recording: JSON in a CObservationComment before the observations of the step in which it has
+/// its first effect (doc/rawlog.md).
+struct InterventionNote {
+  std::uint64_t step = 0;  ///< AppliedIntervention::step
+  Intervention intervention;
+
+  std::string text() const;
+  /// nullopt if the comment is no such note. @throws ConfigError for one whose change is invalid
+  static std::optional<InterventionNote> parse(const std::string& text);
+};
+
+/// Texts of the notes of a state's interventions before a step.
+/// @param is_first whether a recording begins with this step: then also of the objects, if they have been changed
+std::vector<std::string> notesBefore(const State& state, std::uint64_t step, bool is_first);
+/// The objects in such a comment; nullopt if it is no note of them. @throws ConfigError for an invalid object
+std::optional<ChangedObjects> objectsIn(const std::string& text);
+
+}  // namespace robosim

@@ -1,0 +1,95 @@
+#include "environment/intervention_bytes.h"
+
+#include <utility>
+#include <vector>
+
+#include "base/error_list.h"
+
+namespace robosim {
+namespace {
+
+/// Longest text of a change.
+constexpr std::size_t kChangeBytesMax = 1 << 20;
+
+Change takeChange(StateReader& in) {
+  try {
+    return parseChange(in.takeText(kChangeBytesMax), "a saved state");
+  } catch (const ConfigError&) {
+    throw InvalidContents("an intervention is invalid");
+  }
+}
+
+template <typename Kind>
+Kind takeChangeOf(StateReader& in) {
+  const Change change = takeChange(in);
+  requireContents(std::holds_alternative<Kind>(change), "an intervention is of another kind");
+  return std::get<Kind>(change);
+}
+
+}  // namespace
+
+void writeIntervention(const Intervention& intervention, StateWriter& out) {
+  out.addText(intervention.author);
+  out.addText(changeText(intervention.change));
+}
+
+Intervention readIntervention(StateReader& in) {
+  std::string author = in.takeText(kChangeBytesMax);
+  return {std::move(author), takeChange(in)};
+}
+
+void writeObjects(const ChangedObjects& changed, StateWriter& out) {
+  out.addNumber(std::uint8_t{changed.areChanged()});
+  if (!changed.areChanged()) return;
+  const std::vector<WorldObject> none;
+  const auto& objects = changed.orThose(none);
+  out.addNumber(static_cast<std::uint32_t>(objects.size()));
+  for (const WorldObject& object : objects) out.addText(changeText(AddObject{object}));
+}
+
+ChangedObjects readObjects(StateReader& in) {
+  if (!in.takeFlag()) return {};
+  std::vector<WorldObject> objects;
+  for (auto left = in.takeNumber<std::uint32_t>(); left > 0; --left) {
+    objects.push_back(takeChangeOf<AddObject>(in).object);
+  }
+  return ChangedObjects(std::move(objects));
+}
+
+void writeInterventions(const State& state, StateWriter& out) {
+  out.addNumber(state.interventions_applied);
+  out.addNumber(static_cast<std::uint32_t>(state.interventions.size()));
+  for (const AppliedIntervention& applied : state.interventions) {
+    out.addNumber(applied.step);
+    writeIntervention(applied.intervention, out);
+  }
+  writeObjects(state.objects, out);
+  out.addNumber(std::uint8_t{state.communication.has_value()});
+  if (state.communication) out.addText(changeText(ChangeRadio{*state.communication}));
+  out.addNumber(std::uint8_t{state.ended.has_value()});
+  if (state.ended) {
+    out.addNumber(state.ended->step);
+    out.addText(changeText(EndRun{state.ended->outcome, state.ended->text}));
+  }
+}
+
+void readInterventions(StateReader& in, State& state) {
+  state.interventions_applied = in.takeNumber<std::uint64_t>();
+  for (auto left = in.takeNumber<std::uint32_t>(); left > 0; --left) {
+    AppliedIntervention& applied = state.interventions.emplace_back();
+    applied.step = in.takeNumber<std::uint64_t>();
+    requireContents(applied.step == state.time.step || applied.step == state.time.step + 1,
+                    "an intervention has an impossible time");
+    applied.intervention = readIntervention(in);
+  }
+  state.objects = readObjects(in);
+  if (in.takeFlag()) state.communication = takeChangeOf<ChangeRadio>(in).communication;
+  if (in.takeFlag()) {
+    const auto step = in.takeNumber<std::uint64_t>();
+    requireContents(step <= state.time.step, "the end has an impossible time");
+    const EndRun end = takeChangeOf<EndRun>(in);
+    state.ended = RunEnd{end.outcome, end.text, step};
+  }
+}
+
+}  // namespace robosim

@@ -1,0 +1,25 @@
+#pragma once
+#include "environment/state.h"
+#include "environment/state_stream.h"
+
+namespace robosim {
+
+/// @file
+/// Interventions and what they have changed, as parts of a saved state (state_bytes.h) and of what processes that share
+/// a run exchange.
+
+void writeIntervention(const Intervention& intervention, StateWriter& out);
+/// @throws InvalidContents
+Intervention readIntervention(StateReader& in);
+
+/// The objects that a state has instead of those of its model, if it has any.
+void writeObjects(const ChangedObjects& objects, StateWriter& out);
+/// @throws InvalidContents
+ChangedObjects readObjects(StateReader& in);
+
+/// All members of the state that interventions change but those of robots.
+void writeInterventions(const State& state, StateWriter& out);
+/// @param state its time is that of the saved state @throws InvalidContents
+void readInterventions(StateReader& in, State& state);
+
+}  // namespace robosim

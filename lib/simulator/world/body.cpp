@@ -1,0 +1,21 @@
+#include "world/body.h"
+
+#include "base/portable_math.h"
+
+namespace robosim {
+
+Solid Body::solid() const {
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    return {Circle{{world_from_body.x, world_from_body.y}, cylinder->radius_m}, heights()};
+  }
+  const auto& cube = std::get<Cube>(shape);
+  return {OrientedBox::from(world_from_body, cube.length_m, cube.width_m), heights()};
+}
+
+double Body::coveringRadius() const {
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return cylinder->radius_m;
+  const auto& cube = std::get<Cube>(shape);
+  return portable::hypot(cube.length_m, cube.width_m) / 2;
+}
+
+}  // namespace robosim

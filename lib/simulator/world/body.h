@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <string>
+#include <variant>
+
+#include <mrpt/math/TPose2D.h>
+
+#include "base/xml_element.h"
+#include "geometry/shapes/solid.h"
+
+namespace robosim {
+
+struct Cylinder {
+  double radius_m = 0;
+  bool operator==(const Cylinder&) const = default;
+};
+struct Cube {           ///< a box, named as in 2005
+  double length_m = 0;  ///< along the body's x axis
+  double width_m = 0;
+  bool operator==(const Cube&) const = default;
+};
+
+/// Default of Body::reflectivity: painted walls and wood return 0.4 to 0.8 of near-infrared light.
+constexpr double kReflectivity = 0.5;
+
+/// An upright solid with colour and temperature, as described by <cylinder> or <cube> of a 2005 file.
+struct Body {
+  std::variant<Cylinder, Cube> shape;
+  mrpt::math::TPose2D world_from_body;           ///< of its centre, in plan; phi is the file's direction [rad]
+  double center_z_m = 0;                         ///< height of its centre above the ground
+  double height_m = 0;                           ///< > 0
+  std::array<float, 3> color{0.5f, 0.5f, 0.5f};  ///< red, green, blue, each in [0, 1]
+  double heat_celsius = 0;                       ///< the file's `hot`; 0 gives off no heat
+  double reflectivity = kReflectivity;           ///< share of a laser's light that it returns, [0, 1]
+  bool operator==(const Body&) const = default;
+
+  Solid solid() const;
+  /// Radius [m] of the smallest disc about the centre that covers it in plan.
+  double coveringRadius() const;
+  HeightSpan heights() const { return {center_z_m - height_m / 2, center_z_m + height_m / 2}; }
+};
+
+struct WorldObject {
+  std::string name;
+  Body body;
+  bool stationary = true;  ///< kept for the file format only: objects other than robots never move
+  SourceLine line;
+  bool operator==(const WorldObject&) const = default;
+};
+
+}  // namespace robosim

@@ -1,0 +1,50 @@
+#include "world/changed_objects.h"
+
+#include <algorithm>
+
+namespace robosim {
+namespace {
+
+/// Makes one change to a list of objects.
+struct ObjectChange {
+  std::vector<WorldObject>& objects;
+
+  auto named(const std::string& name) const {
+    return std::find_if(objects.begin(), objects.end(), [&](const WorldObject& object) { return object.name == name; });
+  }
+
+  void operator()(const PlaceBody& place) const {
+    const auto object = named(place.name);
+    if (object == objects.end()) return;
+    auto& pose = object->body.world_from_body;
+    pose = {place.x_m, place.y_m, place.heading_rad.value_or(pose.phi)};
+  }
+  void operator()(const AddObject& add) const { objects.push_back(add.object); }
+  void operator()(const RemoveBody& remove) const {
+    std::erase_if(objects, [&](const WorldObject& object) { return object.name == remove.name; });
+  }
+  void operator()(const ChangeObject& change) const {
+    const auto object = named(change.name);
+    if (object == objects.end()) return;
+    Body& body = object->body;
+    if (change.heat_celsius) body.heat_celsius = *change.heat_celsius;
+    if (change.color) body.color = *change.color;
+    if (change.reflectivity) body.reflectivity = *change.reflectivity;
+    if (change.height_m) {
+      body.center_z_m += (*change.height_m - body.height_m) / 2;
+      body.height_m = *change.height_m;
+    }
+  }
+  void operator()(const ChangeActivity&) const {}
+  void operator()(const ChangeRadio&) const {}
+  void operator()(const EndRun&) const {}
+};
+
+}  // namespace
+
+std::vector<WorldObject> withChange(std::vector<WorldObject> objects, const Change& change) {
+  std::visit(ObjectChange{objects}, change);
+  return objects;
+}
+
+}  // namespace robosim
