@@ -65,8 +65,20 @@ struct ServedRobots {
 /// A program: its socket, and the packets that it has received.
 class TcpProgram {
  public:
-  TcpProgram(ServedRobots& served, int port) : served_(served), socket_(io_) {
-    socket_.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
+  /// Connects while the server works, because its queue of connections may be full; or while it does not.
+  enum class Server { works, waits };
+  TcpProgram(ServedRobots& served, int port, Server server = Server::works) : served_(served), socket_(io_) {
+    bool is_connected = false;
+    socket_.async_connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)},
+                          [&](const boost::system::error_code& error) {
+                            if (error) throw boost::system::system_error(error);
+                            is_connected = true;
+                          });
+    waitUntil("the program is connected", [&] {
+      if (server == Server::works) served_.server->poll();
+      io_.poll();
+      return is_connected;
+    });
     socket_.non_blocking(true);
     socket_.set_option(
         boost::asio::ip::tcp::no_delay(true));  // a command is not held back until an earlier one is acknowledged
