@@ -30,7 +30,6 @@ namespace {
 
 namespace command = arcos::command;
 using arcos::encodeCommand;
-using boost::asio::ip::tcp;
 
 TEST(ArcosServer, DrivesEachRobotByTheProgramAtItsPort) {
   ServedRobots served(2);
@@ -343,7 +342,7 @@ TEST(ArcosServer, NamesAPortThatIsInUse) {
   ArcosOptions options;
   options.listen = "127.0.0.1:" + std::to_string(served.server->ports()[0]);
   try {
-    ArcosServer(options, *served.environment, {0});
+    const ArcosServer second(options, *served.environment, {0});
     ADD_FAILURE() << "no error";
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(std::string(error.what()), "cannot listen on " + options.listen +

@@ -66,11 +66,11 @@ TEST(Intervention, OfAWorldFileThatIsFaultyIsReportedWithItsLine) {
   using Faults = std::vector<std::string>;
   EXPECT_EQ(faults("<at time=\"-1\"><remove name=\"a\"/></at>"),
             Faults{"a.xml:2: <at time=\"-1\">: must be at least 0; write a number there"});
-  EXPECT_EQ(faults("<at time=\"1\"/>"), Lines{"a.xml:2: <at>: contains no change; add one, such as <place>"});
+  EXPECT_EQ(faults("<at time=\"1\"/>"), Faults{"a.xml:2: <at>: contains no change; add one, such as <place>"});
   EXPECT_EQ(
       faults("<at time=\"1\"><open name=\"door\"/></at>"),
-      Lines{"a.xml:2: <open>: is no change of a run; changes are: activity, add, change, communication, end, place, "
-            "remove"});
+      Faults{"a.xml:2: <open>: is no change of a run; changes are: activity, add, change, communication, end, place, "
+             "remove"});
   EXPECT_EQ(faults("<at time=\"1\"><place name=\"a\" x=\"1\" y=\"2\" z=\"3\"/></at>"),
             Faults{"a.xml:2: <place>: unknown attribute z=\"3\"; accepted here are: name, x, y"});
 }

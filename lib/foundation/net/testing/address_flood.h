@@ -56,9 +56,9 @@ class AddressFlood {
     const sockaddr_in from = addressOf(kFirst + i / kPerNetwork * 256 + i % kPerNetwork + 1, 0);
     const sockaddr_in to = addressOf(INADDR_LOOPBACK, port_);
     const int client = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    bind(client, reinterpret_cast<const sockaddr*>(&from), sizeof from);
-    connect(client, reinterpret_cast<const sockaddr*>(&to), sizeof to);
-    // Over loopback it is connected, unless the server's queue is full.
+    // Over loopback it is connected afterwards, unless the server's queue is full.
+    static_cast<void>(bind(client, reinterpret_cast<const sockaddr*>(&from), sizeof from));
+    static_cast<void>(connect(client, reinterpret_cast<const sockaddr*>(&to), sizeof to));
     send(client, bytes_.data(), bytes_.size(), MSG_NOSIGNAL);
     return client;
   }
