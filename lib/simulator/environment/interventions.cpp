@@ -160,9 +160,9 @@ struct Environment::Impl::ApplyChange {
     return "robot " + inQuotes(name) + " is not in the world at present; place it first";
   }
   std::string unknown(const std::string& name, const std::string& what) const {
-    std::vector<std::string> known = of.message_router.names();
-    for (const auto& object : objects()) known.push_back(object.name);
-    return inQuotes(name) + " is not the name of " + what + didYouMean(name, known);
+    std::vector<std::string> names = of.message_router.names();
+    for (const auto& object : objects()) names.push_back(object.name);
+    return inQuotes(name) + " is not the name of " + what + didYouMean(name, names);
   }
 };
 
