@@ -82,10 +82,7 @@ std::string http2Frame(std::uint8_t type, std::uint8_t flags, std::uint32_t stre
 }
 
 struct Http2Peer::Wire {
-  Wire(const std::string& address, Security security) : socket(connectTo(address)) {
-    if (security == Security::tls) startTls();
-    fcntl(socket, F_SETFL, O_NONBLOCK);
-  }
+  explicit Wire(const std::string& address) : socket(connectTo(address)) {}
   ~Wire() {
     SSL_free(ssl);
     SSL_CTX_free(context);
@@ -94,6 +91,11 @@ struct Http2Peer::Wire {
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
 
+  /// @throws std::runtime_error when the server refuses TLS
+  void start(Security security) {
+    if (security == Security::tls) startTls();
+    fcntl(socket, F_SETFL, O_NONBLOCK);
+  }
   void startTls() {
     context = SSL_CTX_new(TLS_client_method());
     SSL_CTX_set_mode(context, SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
@@ -132,8 +134,9 @@ struct Http2Peer::Wire {
   std::array<char, 16384> dropped{};
 };
 
-Http2Peer::Http2Peer(const std::string& address, Security security)
-    : wire_(std::make_unique<Wire>(address, security)) {}
+Http2Peer::Http2Peer(const std::string& address, Security security) : wire_(std::make_unique<Wire>(address)) {
+  wire_->start(security);
+}
 Http2Peer::~Http2Peer() = default;
 
 bool Http2Peer::drain() {
