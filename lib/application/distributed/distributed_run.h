@@ -118,7 +118,7 @@ class DistributedRun {
   void exchangeStays(bool is_end_requested);
   /// Sends readings from the ranks that have those of `from` to those that need those of `to`.
   void exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to);
-  /// Tells the other ranks what the observers of rank 0 have decided: the end of the run, and interventions.
+  /// Sends to the other ranks what the observers of rank 0 have decided: the end of the run, and interventions.
   void observe();
   void balance();
   /// Sends out_ to all ranks; all_ is then what all have sent.
