@@ -186,11 +186,14 @@ std::string Environment::Impl::apply(const Intervention& intervention, bool is_c
 }
 
 void Environment::Impl::applyTimeline() {
-  for (const TimedChange& timed : model->world.timeline) {
-    const auto due_step =
-        static_cast<std::uint64_t>(std::ceil(std::max(0.0, timed.time_s / model->period_s - kDueTolerance)));
-    if (due_step > state.time.step) return;
-    if (due_step < state.time.step) continue;
+  const auto& timeline = model->world.timeline;
+  const auto due_step = [&](const TimedChange& timed) {
+    return static_cast<std::uint64_t>(std::ceil(std::max(0.0, timed.time_s / model->period_s - kDueTolerance)));
+  };
+  auto next = std::partition_point(timeline.begin(), timeline.end(),
+                                   [&](const TimedChange& timed) { return due_step(timed) < state.time.step; });
+  for (; next != timeline.end() && due_step(*next) == state.time.step; ++next) {
+    const TimedChange& timed = *next;
     const std::string fault = apply({kWorldFileAuthor, timed.change}, true);
     if (fault.empty()) continue;
     logWarning("", "the change in line " + std::to_string(timed.line.number) + " of the world file, at " +
