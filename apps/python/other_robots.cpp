@@ -40,7 +40,7 @@ class ControlledRobots : public OtherRobots {
       ControllerSetup setup{environment.state().seed, static_cast<std::uint32_t>(i),
                             environment.state().world_from_robot[i]};
       if (knowsWorld(choice)) {
-        if (!known_world) known_world = knownWorldOf(environment.world(), environment.fleet());
+        if (!known_world) known_world = makeKnownWorld(environment.world(), environment.fleet());
         setup.known_world = known_world;
       }
       all_.push_back(std::make_unique<One>(environment, i, choice, makeController(choice, setup, robots[i].info.name)));

@@ -64,7 +64,7 @@ std::shared_ptr<PythonWorld> PythonWorld::load(const fs::path& file, std::uint64
 }
 
 std::shared_ptr<PythonWorld> PythonWorld::parse(std::string text, const fs::path& file, std::uint64_t seed) {
-  return worldOf(worldSourceOf(std::move(text), file), seed);
+  return worldOf(completeWorldSource(std::move(text), file), seed);
 }
 
 void bindWorld(py::module_& module) {

@@ -199,7 +199,7 @@ void Simulation::restore(std::string_view bytes) {
 
 void Simulation::record(const std::filesystem::path& file) {
   if (recording_) throw std::invalid_argument("the simulation is being recorded; call stop_recording() before");
-  refuseOverwriting(inputFilesOf(world_->source.file, environment().world()), {file});
+  refuseOverwriting(listInputFiles(world_->source.file, environment().world()), {file});
   std::vector<RobotInfo> robots;
   for (const auto& robot : environment().fleet().robots) robots.push_back(robot.info);
   RunNote note = noteOf(world_->source, *run_, options_, elsewhere_);

@@ -175,7 +175,7 @@ void checkWorld(const std::string& file, World world_in_file, const Additions& a
     checked.contents.push_back({"  …", std::to_string(fleet.robots.size() - kMaxListed) + " more"});
   }
   if (checked.errors.empty()) {
-    checked.error_models = errorModelsOf(world, fleet, types);
+    checked.error_models = listErrorModels(world, fleet, types);
     checked.error_models.addTo(checked.contents);
   }
   if (checked.errors.empty()) checkEdge(world, fleet, checked);
@@ -199,7 +199,7 @@ void checkRobotModel(const std::string& file, const XmlElement& element, Checked
   if (!model.sensor_infos) return;
   for (const auto& sensor : *model.sensor_infos) checked.contents.push_back({"  " + sensor.label, nameOf(sensor.kind)});
   if (!checked.errors.empty()) return;
-  checked.error_models = errorModelsOf(root, model);
+  checked.error_models = listErrorModels(root, model);
   checked.error_models.addTo(checked.contents);
 }
 

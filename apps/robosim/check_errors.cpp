@@ -10,7 +10,7 @@ namespace {
 void addSensors(const std::string& of, const std::vector<XmlElement>& sensors, const RobotModel& model,
                 ErrorModels& models) {
   for (const auto& sensor : sensors) {
-    auto settings = errorSettingsOf(sensor, {1, model.radius_m, model.body.height_m, model.sensors, 0});
+    auto settings = readErrorSettings(sensor, {1, model.radius_m, model.body.height_m, model.sensors, 0});
     if (!settings.isNone()) models.sensors.push_back({of, sensor.name, std::move(settings)});
   }
 }
@@ -78,13 +78,13 @@ nlohmann::ordered_json ErrorModels::json() const {
   return all;
 }
 
-ErrorModels errorModelsOf(const XmlElement& type, const RobotModel& model) {
+ErrorModels listErrorModels(const XmlElement& type, const RobotModel& model) {
   ErrorModels models;
   addSensors("", sensorsOf(type), model, models);
   return models;
 }
 
-ErrorModels errorModelsOf(const World& world, const Fleet& fleet, const RobotTypes& types) {
+ErrorModels listErrorModels(const World& world, const Fleet& fleet, const RobotTypes& types) {
   ErrorModels models;
   std::set<std::string> done;
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {

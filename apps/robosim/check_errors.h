@@ -33,8 +33,8 @@ struct ErrorModels {
 };
 
 /// Errors of the sensors of a robot type. @param type the root element of its file, from readRobotType()
-ErrorModels errorModelsOf(const XmlElement& type, const RobotModel& model);
+ErrorModels listErrorModels(const XmlElement& type, const RobotModel& model);
 /// Errors of the sensors of each robot type, and of robots with sensors of their own, of the radio, and reflectivities.
-ErrorModels errorModelsOf(const World& world, const Fleet& fleet, const RobotTypes& types);
+ErrorModels listErrorModels(const World& world, const Fleet& fleet, const RobotTypes& types);
 
 }  // namespace robosim

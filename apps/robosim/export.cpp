@@ -58,7 +58,7 @@ class Source {
   const LoadedWorld& loaded() const { return loaded_; }
 
   const OccupancyGrid& grid() {
-    if (!grid_) grid_ = rasterOf(loaded_.world, extent(heightsOfRobots()));
+    if (!grid_) grid_ = rasterize(loaded_.world, extent(heightsOfRobots()));
     return *grid_;
   }
 
@@ -72,7 +72,7 @@ class Source {
     if (is_multiple(extent.origin.x) && is_multiple(extent.origin.y)) return grid();
     if (!grid_of_mrpt_) {
       extent.origin = {0, 0};
-      grid_of_mrpt_ = rasterOf(loaded_.world, extent);
+      grid_of_mrpt_ = rasterize(loaded_.world, extent);
       logWarning("export", out.string() + ": the corner of the map is no multiple of its cell of " +
                                toText(extent.cell_m) +
                                " m, as in all grid maps of MRPT; its cells are resampled, and walls are up to one cell "
@@ -297,7 +297,7 @@ void exportFiles(const ExportArguments& arguments) {
   Progress& progress = *shown;
   progress.show("reading " + arguments.world + " …");
   Source source(arguments, progress);
-  checkOutputs(outs, inputFilesOf(arguments.world, source.loaded().world));
+  checkOutputs(outs, listInputFiles(arguments.world, source.loaded().world));
   Files files;
   for (const auto& out : arguments.outs) {
     progress.show("creating " + out + " …");

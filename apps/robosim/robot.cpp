@@ -77,7 +77,7 @@ class RobotProcess {
     std::shared_ptr<const KnownWorld> known_world;
     if (!arguments.map.empty()) {
       const LoadedWorld loaded = loadWorld(arguments.map, {}, robots_.seed());
-      known_world = knownWorldOf(loaded.world, loaded.fleet);
+      known_world = makeKnownWorld(loaded.world, loaded.fleet);
     }
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i)),

@@ -22,7 +22,7 @@ class LocalRunView final : public ViewSource {
         arguments_(arguments),
         observe_(observe),
         world_{run.environment().world(), run.environment().fleet()},
-        snapshot_(snapshotOf(run.environment())),
+        snapshot_(takeSnapshot(run.environment())),
         speed_(speed) {
     paths_.add(snapshot_);
     observe_();
@@ -41,7 +41,7 @@ class LocalRunView final : public ViewSource {
       takeFor(wall_s);
     }
     if (run_.environment().time().step == before) return false;
-    snapshot_ = snapshotOf(run_.environment());
+    snapshot_ = takeSnapshot(run_.environment());
     return true;
   }
   bool isOver() const override { return run_.isOver() || arguments_.timeIsUp(run_.environment().time()); }

@@ -150,7 +150,7 @@ void print(const SpeedFigures& figures, bool with_targets) {
   if (!figures.loads.empty()) std::cout << toTable(figures.loads) << '\n';
   if (!figures.rays.figures.empty()) std::cout << toTable(figures.rays) << '\n';
   if (!figures.enki.figures.empty() || !figures.enki.why_no_peer.empty()) std::cout << toTable(figures.enki) << '\n';
-  if (with_targets) std::cout << toTable(targetsOf(figures)) << '\n';
+  if (with_targets) std::cout << toTable(readTargets(figures)) << '\n';
 }
 
 void benchSpeed(const SpeedArguments& arguments) {

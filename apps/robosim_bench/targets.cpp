@@ -108,7 +108,7 @@ std::vector<RobotLoad> standardLoads() {
   return loads;
 }
 
-std::vector<Target> targetsOf(const SpeedFigures& figures) {
+std::vector<Target> readTargets(const SpeedFigures& figures) {
   const Loads loads(figures.loads);
   TargetList list;
   addRays(figures.rays, list);

@@ -40,6 +40,6 @@ struct Target {
   std::optional<bool> met;  ///< nullopt if it could not be measured
 };
 
-std::vector<Target> targetsOf(const SpeedFigures& figures);
+std::vector<Target> readTargets(const SpeedFigures& figures);
 
 }  // namespace robosim

@@ -73,7 +73,7 @@ class RunView final : public ViewSource {
   std::string title() const override { return title_; }
   bool advance(double) override {
     run_.step();
-    snapshot_ = snapshotOf(run_.environment());
+    snapshot_ = takeSnapshot(run_.environment());
     snapshot_.robots.front().readings->measurements.emplace_back();  // of that camera
     // Paths of bounded length: each view is measured at the same lengths, however many there are.
     if (snapshot_.step % kPathSteps == 0) paths_.clear();

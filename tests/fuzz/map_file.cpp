@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   MapReading reading;
   reading.pixel_m = 0.05;
   try {
-    readMap(name, providerOf("world.xml", files), reading);
+    readMap(name, makeProvider("world.xml", files), reading);
   } catch (const ConfigError&) {
   }
   return 0;

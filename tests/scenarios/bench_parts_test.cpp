@@ -248,7 +248,7 @@ SpeedFigures enough() {
 
 std::vector<std::string> missed(const SpeedFigures& figures) {
   std::vector<std::string> all;
-  for (const auto& target : targetsOf(figures)) {
+  for (const auto& target : readTargets(figures)) {
     if (!target.met.value_or(false)) all.push_back(target.what + " | " + target.target + " | " + target.measured);
   }
   return all;
@@ -273,7 +273,7 @@ TEST(Targets, CompareOnlyWithPeersMeasuredInTheSameRun) {
   SpeedFigures beside = enough();
   beside.enki.figures = {{.robots = 1000, .robot_step = {1, 1}, .peer_robot_step = {50, 60}}};
   std::vector<std::string> ratios;
-  for (const auto& target : targetsOf(beside)) {
+  for (const auto& target : readTargets(beside)) {
     for (const char* elsewhere : {"Stage", "MVSim", "ARGoS"}) {
       EXPECT_EQ(target.what.find(elsewhere), std::string::npos) << target.what;
     }
@@ -285,7 +285,7 @@ TEST(Targets, CompareOnlyWithPeersMeasuredInTheSameRun) {
 TEST(Targets, AreNeitherMetNorMissedWithoutAPeer) {
   SpeedFigures alone = enough();
   alone.rays.peer.clear();
-  const auto targets = targetsOf(alone);
+  const auto targets = readTargets(alone);
   EXPECT_EQ(targets[0].measured, "no Embree");
   EXPECT_FALSE(targets[0].met);
 }

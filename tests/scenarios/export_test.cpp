@@ -46,7 +46,7 @@ void expectAgreesWithScene(const COccupancyGridMap2D& grid, const std::string& w
   const Scene scene(stationarySolids(loaded.world), 0, loaded.world.bounds);
   std::vector<Solid> unknown;
   for (const auto& map : loaded.world.maps) {
-    for (const auto& solid : unknownOf(map)) unknown.push_back(solid);
+    for (const auto& solid : unknownSolids(map)) unknown.push_back(solid);
   }
   std::vector<HeightSpan> robots;
   for (const auto& robot : loaded.fleet.robots) robots.push_back(robot.body.heights());

@@ -65,7 +65,7 @@ void expectAgreement(RestCriterion criterion) {
   const ScannerFit fit = fitScanner(kSena, "", criterion);
   for (std::size_t band = 0; band < kBands; ++band) {
     if (fit.real.differences_m[band].empty()) continue;
-    EXPECT_LE(fit.ksOf(band), fit.ksBoundOf(band)) << bandName(band);
+    EXPECT_LE(fit.computeKs(band), fit.computeKsBound(band)) << bandName(band);
   }
   expectRates(fit, "jumps", [](const PairStatistics& s) { return Count{s.jumps, s.compared}; });
   expectRates(fit, "changes of validity", [](const PairStatistics& s) { return Count{s.flips, s.beams}; });
@@ -234,7 +234,7 @@ TEST_F(Fit, StatesThatTheErrorsOfARecordingThatIsNeverAtRestAreUpperBounds) {
     EXPECT_LT(fitted.model.std_m[band], 0.020) << bandName(band);
   }
   for (std::size_t band = 1; band < kBands; ++band) {
-    EXPECT_LE(fitted.ksOf(band), fitted.ksBoundOf(band)) << bandName(band);
+    EXPECT_LE(fitted.computeKs(band), fitted.computeKsBound(band)) << bandName(band);
   }
   EXPECT_GT(fitted.map_model.z_hit, 0.94);
 }

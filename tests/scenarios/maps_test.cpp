@@ -18,7 +18,7 @@ using nlohmann::json;
 TEST(Maps, AllShippedMapsLoad) {
   int maps = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ROBOSIM_SOURCE_DIR "/maps")) {
-    if (!isMapFile(entry.path()) || mapFormatOf(entry.path()) == MapFormat::picture) continue;
+    if (!isMapFile(entry.path()) || recognizeMapFormat(entry.path()) == MapFormat::picture) continue;
     const json check = json::parse(runProgram("check --json '" + entry.path().string() + "'").out);
     EXPECT_EQ(check["ok"], true) << check;
     EXPECT_EQ(check["maps"], 1) << check;

@@ -52,7 +52,7 @@ void addMeans(std::span<const SearchRun* const> runs, CaseSummary& summary) {
 
 std::vector<CaseSummary> summarise(const SearchPlan& plan, const SearchRuns& runs) {
   std::vector<CaseSummary> summaries;
-  const auto oracle = oracleOf(plan);
+  const auto oracle = findOracle(plan);
   for (std::size_t index = 0; index < plan.caseCount(); ++index) {
     std::vector<const SearchRun*> finished;
     std::vector<SearchTime> times;
@@ -130,7 +130,7 @@ std::vector<StrategyComparison> compareStrategies(const SearchPlan& plan, const 
   return comparisons;
 }
 
-std::vector<Robustness> robustnessOf(const SearchPlan& plan, const SearchRuns& runs) {
+std::vector<Robustness> computeRobustness(const SearchPlan& plan, const SearchRuns& runs) {
   std::vector<Robustness> all;
   for (std::size_t condition = 1; condition < plan.conditions.size(); ++condition) {
     for (std::size_t team = 0; team < plan.teams.size(); ++team) {

@@ -57,6 +57,6 @@ struct Robustness {
   PairedComparison result;  ///< `first`: the first condition
   double adjusted_p = 1;    ///< Holm's, for all of the list
 };
-std::vector<Robustness> robustnessOf(const SearchPlan& plan, const SearchRuns& runs);
+std::vector<Robustness> computeRobustness(const SearchPlan& plan, const SearchRuns& runs);
 
 }  // namespace robosim

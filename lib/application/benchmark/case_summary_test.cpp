@@ -99,7 +99,7 @@ TEST_F(CaseSummaryTest, ComparesStrategiesOnEqualStarts) {
 }
 
 TEST_F(CaseSummaryTest, RelatesConditionsToTheFirst) {
-  const auto robustness = robustnessOf(plan_, runs_);
+  const auto robustness = computeRobustness(plan_, runs_);
   ASSERT_EQ(robustness.size(), 1u);
   EXPECT_EQ(robustness[0].found_at_first, 3u);
   EXPECT_EQ(robustness[0].found, 2u);

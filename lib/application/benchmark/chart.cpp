@@ -219,7 +219,7 @@ std::string chartStyle() {
          ".chart .area{fill-opacity:" + toText(kAreaOpacity) + "}" + classes;
 }
 
-std::string pdfOf(const Chart& chart) {
+std::string drawPdf(const Chart& chart) {
   constexpr double kPointsPerPixel = 0.75;
   std::string document;
   const auto append = [](void* to, const unsigned char* bytes, unsigned size) {

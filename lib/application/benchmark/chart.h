@@ -40,7 +40,7 @@ std::string svgOf(const Chart& chart, ChartColors colors);
 /// The style of a page with charts, for light and dark; stated once, so that the charts are small.
 std::string chartStyle();
 /// A PDF document of one page; the same chart gives the same bytes.
-std::string pdfOf(const Chart& chart);
+std::string drawPdf(const Chart& chart);
 
 /// Round numbers from at most `min` to at least `max`: at most `count` + 1, with steps of 1, 2 or 5 times a power
 /// of 10.

@@ -156,9 +156,9 @@ TEST(Chart, MarksPowersOfTwoOnBothLogarithmicAxes) {
 }
 
 TEST(Chart, IsAPdfDocumentWithTheSameBytesEachTime) {
-  const std::string pdf = pdfOf(someChart());
+  const std::string pdf = drawPdf(someChart());
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
-  EXPECT_EQ(pdfOf(someChart()), pdf);
+  EXPECT_EQ(drawPdf(someChart()), pdf);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ std::string comparisonsOf(const SearchPlan& plan, const SearchRuns& runs) {
 std::string robustnessSection(const SearchPlan& plan, const SearchRuns& runs) {
   if (plan.conditions.size() < 2) return "";
   std::string html = "<h2>Robustness</h2>\n";
-  const auto all = robustnessOf(plan, runs);
+  const auto all = computeRobustness(plan, runs);
   for (std::size_t condition = 1; condition < plan.conditions.size(); ++condition) {
     html += folded(plan.conditions[condition].text(), robustnessTable(plan, all, condition), condition == 1);
   }

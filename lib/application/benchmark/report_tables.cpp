@@ -66,7 +66,7 @@ class StrategyFigures {
 }  // namespace
 
 std::string overviewTable(const SearchPlan& plan, const SearchRuns& runs, std::size_t condition) {
-  const auto oracle = oracleOf(plan);
+  const auto oracle = findOracle(plan);
   const std::size_t teams = plan.teams.size();
   StrategyFigures found(teams, 1, true), median(teams, 1, false), ratio(teams, 2, false);
   std::vector<std::size_t> strategies;

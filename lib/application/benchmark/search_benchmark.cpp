@@ -54,7 +54,7 @@ SearchBenchmark::SearchBenchmark(SearchPlan plan, const std::vector<std::string>
         // Whether there is enough space is known only by drawing.
         starts.draw(plan_.seed);
         if (worlds_.empty() || worlds_.back()->world.world.name != name) {
-          for (const auto& input : inputFilesOf(file, loaded.world)) input_files_.push_back(input);
+          for (const auto& input : listInputFiles(file, loaded.world)) input_files_.push_back(input);
         }
         worlds_.push_back(std::make_unique<PreparedWorld>(PreparedWorld{std::move(loaded), std::move(starts)}));
       }

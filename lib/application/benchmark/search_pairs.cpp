@@ -18,7 +18,7 @@ double medianOf(std::vector<double> values) {
 
 }  // namespace
 
-std::optional<std::size_t> oracleOf(const SearchPlan& plan) {
+std::optional<std::size_t> findOracle(const SearchPlan& plan) {
   for (std::size_t i = 0; i < plan.strategies.size(); ++i) {
     const std::string& strategy = plan.strategies[i];
     if (!strategy.empty() && TypeChoice::parse(strategy).name == kOracle) return i;

@@ -9,7 +9,7 @@
 namespace robosim {
 
 /// The index of the strategy that knows the map (kOracle); nullopt for none.
-std::optional<std::size_t> oracleOf(const SearchPlan& plan);
+std::optional<std::size_t> findOracle(const SearchPlan& plan);
 
 /// Times of two cases with equal seeds, where both runs are finished.
 struct SearchPairs {

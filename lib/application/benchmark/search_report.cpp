@@ -106,7 +106,7 @@ void writeReport(const std::filesystem::path& folder, const SearchPlan& plan, co
   for (const auto& list : {survivalFigures(plan, summaries), speedUpFigures(plan, summaries)}) {
     for (const auto& figure : list) {
       writeFile(figures / (figure.name + ".svg"), svgOf(figure.chart, ChartColors::fixed));
-      writeFile(figures / (figure.name + ".pdf"), pdfOf(figure.chart));
+      writeFile(figures / (figure.name + ".pdf"), drawPdf(figure.chart));
     }
   }
   writeFile(folder / "runs.csv", runsCsv(plan, runs));

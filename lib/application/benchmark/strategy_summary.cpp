@@ -8,7 +8,7 @@ namespace robosim {
 
 std::vector<StrategySummary> summariseStrategies(const SearchPlan& plan, const SearchRuns& runs) {
   std::vector<StrategySummary> summaries;
-  const auto oracle = oracleOf(plan);
+  const auto oracle = findOracle(plan);
   for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
     for (std::size_t team = 0; team < plan.teams.size(); ++team) {
       for (std::size_t strategy = 0; strategy < plan.strategies.size(); ++strategy) {

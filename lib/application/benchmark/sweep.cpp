@@ -58,7 +58,7 @@ Sweep::Sweep(SweepPlan plan, const std::vector<std::string>& files, const WorldC
     errors.throwIfAny();
     plan_.worlds.push_back(loaded.world.name);
     plan_.world_versions.push_back(versionOf(source));
-    for (const auto& input : inputFilesOf(file, loaded.world)) input_files_.push_back(input);
+    for (const auto& input : listInputFiles(file, loaded.world)) input_files_.push_back(input);
     starts_.emplace_back(loaded.world, loaded.fleet);
     worlds_.push_back(std::move(loaded));
   }

@@ -19,7 +19,7 @@ double rateBound(std::size_t hits, std::size_t trials, std::size_t simulated_hit
 
 }  // namespace
 
-double HeldOutFit::ksBoundOf(std::size_t band) const {
+double HeldOutFit::computeKsBound(std::size_t band) const {
   return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
 }
 

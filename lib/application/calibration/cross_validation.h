@@ -19,7 +19,7 @@ struct HeldOutFit {
   PairStatistics real, simulated;  ///< of the held-out pairs or scans, and of the model
 
   /// Bound of the Kolmogorov–Smirnov distance of a band, at a level of 1 % for this band alone.
-  double ksBoundOf(std::size_t band) const;
+  double computeKsBound(std::size_t band) const;
   /// Bounds of the difference of the rates of jumps and of changes of validity: those that equal rates exceed with
   /// probability `level`, at least kRateTolerance. The pairs of one half share no scan and are independent.
   double jumpBound(double level) const;

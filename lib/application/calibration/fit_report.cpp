@@ -94,7 +94,7 @@ std::string bandsOf(const ScannerFit& fit) {
       html += "<p>No held-out " + valuesOf(fit) + ".</p>\n";
       continue;
     }
-    const double ks = fit.ksOf(band), bound = fit.ksBoundOf(band);
+    const double ks = fit.computeKs(band), bound = fit.computeKsBound(band);
     const std::string parts = fit.basis == FitBasis::scans_at_rest ? " pairs" : " scans";
     html += "<p>KS distance " + fixed(ks, 3) + ", bound " + fixed(bound, 3) + " (" +
             (ks <= bound ? "agrees" : "differs") + "); " + withCommas(n) + " real and " +
@@ -102,8 +102,8 @@ std::string bandsOf(const ScannerFit& fit) {
     for (std::size_t half = 0; half < fit.folds.size(); ++half) {
       const HeldOutFit& fold = fit.folds[half];
       html += (half == 0 ? " Odd" : "; even") + parts +
-              " alone: " + fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + ", bound " +
-              fixed(fold.ksBoundOf(band), 3) +
+              " alone: " + fixed(fit.computeKs(fold.real, fold.simulated, band), 3) + ", bound " +
+              fixed(fold.computeKsBound(band), 3) +
               (fit.isBeyondBound(fold, band) ? " (<strong>differs</strong>)" : " (agrees)");
     }
     html += ".</p>\n";

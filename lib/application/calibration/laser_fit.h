@@ -27,8 +27,8 @@ constexpr std::size_t kFewestDifferences = 30;
 /// k (tail_factor), which are searched on a grid; t is 0 unless the likelihood rejects this at a level of 1 %.
 /// Intervals of σ, t and k are those of the profile likelihood, widened by the design effect of differences that share
 /// a beam or a scan. The rate of outliers is that of single readings: a difference is a jump if either of its readings
-/// is an outlier beyond the limit of jumps. Lost echoes depend on the beam and are estimated by lostEchoesOf(); dropout
-/// is 0 here.
+/// is an outlier beyond the limit of jumps. Lost echoes depend on the beam and are estimated by countLostEchoes();
+/// dropout is 0 here.
 /// @throws ConfigError without a band of kFewestDifferences
 /// @throws Interrupted when a signal requests the end
 LaserFit fitLaser(const PairStatistics& statistics, double quantum_m);

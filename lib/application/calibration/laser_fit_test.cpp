@@ -36,7 +36,7 @@ TEST(LaserFit, RecoversTheErrorsOfASimulatedScanner) {
   errors.tail = 0.05;
   errors.tail_factor = 5;
   const ScanSeries series = standingSeries(200, errors);
-  const LaserFit fit = fitLaser(statisticsOf(series, standingPairs(series)), quantumOf(series));
+  const LaserFit fit = fitLaser(statisticsOf(series, standingPairs(series)), estimateQuantum(series));
   EXPECT_DOUBLE_EQ(fit.errors.quantum_m, 0.01);
   for (std::size_t band = 0; band < kBands; ++band) EXPECT_NEAR(fit.std_m[band], 0.006, 0.0006) << bandName(band);
   EXPECT_NEAR(fit.errors.tail, 0.05, 0.03);
@@ -64,11 +64,11 @@ TEST(Dropout, IsTheShareOfLostEchoesOfSteadyBeams) {
   errors.std_m = 0.005;
   ScanSeries series = standingSeries(200, errors);
   const auto pairs = standingPairs(series);
-  EXPECT_EQ(lostEchoesOf(series, pairs).dropout, 0);
+  EXPECT_EQ(countLostEchoes(series, pairs).dropout, 0);
   loseEchoes(series, 0.01);
   loseEchoes(series, 0.5, 0, 9);  // surfaces at the limit of detection
   // 171 steady beams: standard error √(0.01 / 34,200) = 0.00054.
-  const LostEchoes echoes = lostEchoesOf(series, pairs);
+  const LostEchoes echoes = countLostEchoes(series, pairs);
   EXPECT_NEAR(echoes.dropout, 0.01, 4 * 0.00054);
   EXPECT_TRUE(echoes.interval.contains(0.01));
   EXPECT_NEAR(echoes.flickering, 10.0 / 181, 0.01);
@@ -88,7 +88,7 @@ TEST(Dropout, IsTheSameForALongRecording) {
   for (const std::size_t scans : {10u, 100u, 1000u}) {
     ScanSeries series = standingSeries(scans, errors);
     loseEchoes(series, 0.01);
-    const LostEchoes echoes = lostEchoesOf(series, standingPairs(series));
+    const LostEchoes echoes = countLostEchoes(series, standingPairs(series));
     EXPECT_NEAR(echoes.dropout, 0.01, 4 * std::sqrt(0.01 * 0.99 / (181 * static_cast<double>(scans)))) << scans;
     EXPECT_EQ(echoes.reach_m, 0) << "no beam flickers";
   }

@@ -75,11 +75,11 @@ bool LostEchoes::isSteady(std::size_t lost, std::size_t scans) const {
   return flickering == 0 || steadyShare({lost, scans, 0}, dropout, flickering) >= 0.5;
 }
 
-LostEchoes lostEchoesOf(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
+LostEchoes countLostEchoes(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
   std::vector<BeamEchoes> beams;
   double lost = 0, all = 0;
   for (const auto& group : standingGroups(series, pairs)) {
-    const auto scans = scansOf(group);
+    const auto scans = listScans(group);
     if (scans.size() < kFewestScans) continue;
     const auto range_m = medianRanges(series, group);
     for (std::size_t i = 0; i < range_m.size(); ++i) {

@@ -27,6 +27,6 @@ struct LostEchoes {
 /// The reach follows from the farthest flickering surface: half of its echoes are detected at its range if
 /// reflectivity × cos(incidence) × (reach / range)² = 1, with 0.5, the default reflectivity of RoboSim, for the
 /// estimate, and 1 … 0.1 for the interval; echoes from farther away raise it.
-LostEchoes lostEchoesOf(const ScanSeries& series, const std::vector<ScanPair>& pairs);
+LostEchoes countLostEchoes(const ScanSeries& series, const std::vector<ScanPair>& pairs);
 
 }  // namespace robosim

@@ -8,7 +8,7 @@
 
 namespace robosim {
 
-std::size_t bandOf(double range_m) {
+std::size_t findBand(double range_m) {
   std::size_t band = 0;
   while (band + 1 < kBands && range_m >= kBandLimits_m[band + 1]) ++band;
   return band;
@@ -38,7 +38,7 @@ void PairStatistics::add(const std::vector<double>& first_m, const std::vector<d
       continue;
     }
     const double at_m = range_m.empty() ? (first_m[i] + second_m[i]) / 2 : range_m[i];
-    const std::size_t band = bandOf(at_m);
+    const std::size_t band = findBand(at_m);
     differences_m[band].push_back(difference_m);
     origins[band].push_back(origin);
     if (range_max_m > 0) {
@@ -79,7 +79,7 @@ PairStatistics statisticsOf(const ScanSeries& series, const std::vector<ScanPair
   return statistics;
 }
 
-double jumpLimitOf(std::vector<double> differences_m, double quantum_m) {
+double computeJumpLimit(std::vector<double> differences_m, double quantum_m) {
   constexpr double kRobustStd = 1.4826;  // median of the absolute values of a Gaussian, inverted
   double limit_m = kJump_m;
   if (!differences_m.empty()) {
@@ -91,12 +91,12 @@ double jumpLimitOf(std::vector<double> differences_m, double quantum_m) {
   return quantum_m > 0 ? (std::floor(limit_m / quantum_m + 1e-6) + 0.5) * quantum_m : limit_m;
 }
 
-double jumpLimitOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
+double computeJumpLimit(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
   const PairStatistics all = statisticsOf(series, pairs, std::numeric_limits<double>::infinity());
   std::vector<double> differences_m;
   for (const auto& of_band : all.differences_m)
     differences_m.insert(differences_m.end(), of_band.begin(), of_band.end());
-  return jumpLimitOf(std::move(differences_m), quantum_m);
+  return computeJumpLimit(std::move(differences_m), quantum_m);
 }
 
 std::vector<double> dequantised(std::vector<double> differences_m, double quantum_m, std::uint64_t seed) {
@@ -126,7 +126,7 @@ double ksBound(std::size_t n, std::size_t m, double level) {
   return std::max(0.05, scale * std::sqrt(1 / static_cast<double>(n) + 1 / static_cast<double>(m)));
 }
 
-double quantumOf(const ScanSeries& series) {
+double estimateQuantum(const ScanSeries& series) {
   constexpr double kQuanta_m[] = {1, 0.5, 0.25, 0.2, 0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001};
   constexpr double kMost = 0.98;      // of the ranges
   constexpr double kRounding = 0.02;  // of a quantum: ranges are recorded in single precision

@@ -9,10 +9,10 @@ namespace robosim {
 /// Limits of the bands of range [m] in which differences are compared; the last band has no upper limit.
 inline constexpr std::array kBandLimits_m{0.0, 2.0, 4.0, 6.0, 8.0};
 inline constexpr std::size_t kBands = kBandLimits_m.size();
-/// Differences [m] above this, or above six robust standard deviations if that is more, are jumps: jumpLimitOf().
+/// Differences [m] above this, or above six robust standard deviations if that is more, are jumps: computeJumpLimit().
 inline constexpr double kJump_m = 0.15;
 
-std::size_t bandOf(double range_m);
+std::size_t findBand(double range_m);
 /// "2 … 4 m", "> 8 m".
 const char* bandName(std::size_t band);
 
@@ -53,8 +53,8 @@ PairStatistics statisticsOf(const ScanSeries& series, const std::vector<ScanPair
 /// Limit above which a difference is a jump: kJump_m, or six times the robust standard deviation of the differences
 /// (1.4826 times the median of their absolute values) if that is more, so that it is no part of the noise. Between two
 /// multiples of the quantum.
-double jumpLimitOf(std::vector<double> differences_m, double quantum_m);
-double jumpLimitOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m);
+double computeJumpLimit(std::vector<double> differences_m, double quantum_m);
+double computeJumpLimit(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m);
 
 /// Each difference of multiples of a quantum plus a number that is uniform within ±quantum / 2, from fixed random
 /// numbers, so that two samples can be compared as continuous ones.
@@ -68,6 +68,6 @@ double ksDistance(std::vector<double> a, std::vector<double> b);
 double ksBound(std::size_t n, std::size_t m, double level = 0.01);
 
 /// The largest q such that nearly all ranges are multiples of q, of 1 mm … 1 m; 0 for none.
-double quantumOf(const ScanSeries& series);
+double estimateQuantum(const ScanSeries& series);
 
 }  // namespace robosim

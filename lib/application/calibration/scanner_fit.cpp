@@ -61,7 +61,7 @@ struct StandingModel {
 
 StandingModel modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m, double jump_m) {
   const PairStatistics statistics = statisticsOf(series, pairs, jump_m);
-  StandingModel model{.fit = fitLaser(statistics, quantum_m), .echoes = lostEchoesOf(series, pairs), .scene = {}};
+  StandingModel model{.fit = fitLaser(statistics, quantum_m), .echoes = countLostEchoes(series, pairs), .scene = {}};
   LaserFit& fit = model.fit;
   fit.errors.dropout = model.echoes.dropout;
   fit.dropout = model.echoes.interval;
@@ -90,7 +90,7 @@ StandingModel modelOf(const ScanSeries& series, const std::vector<ScanPair>& pai
 /// Fits the errors to the pairs of scans at rest.
 void fitPairs(ScannerFit& fit, Progress& progress) {
   progress.show("fitting …");
-  const double quantum_m = quantumOf(fit.series), jump_m = jumpLimitOf(fit.series, fit.used, quantum_m);
+  const double quantum_m = estimateQuantum(fit.series), jump_m = computeJumpLimit(fit.series, fit.used, quantum_m);
   const StandingModel model = modelOf(fit.series, fit.used, quantum_m, jump_m);
   fit.model = model.fit;
   fit.echoes = model.echoes;
@@ -132,12 +132,12 @@ void fitDrive(ScannerFit& fit, const std::string& rawlog, Progress& progress) {
                       "drives among walls" + (fit.candidates.size() >= kFewestPairs ? ", or use --rest odometry" : ""));
   }
   progress.show("fitting …");
-  const double quantum_m = quantumOf(fit.series), range_max_m = fit.series.range_max_m;
+  const double quantum_m = estimateQuantum(fit.series), range_max_m = fit.series.range_max_m;
   std::vector<double> residuals_m;
   for (const auto& reading : fit.map_readings.readings) {
     if (!std::isnan(reading.read_m)) residuals_m.push_back(reading.read_m - reading.expected_m);
   }
-  const double jump_m = jumpLimitOf(std::move(residuals_m), quantum_m);
+  const double jump_m = computeJumpLimit(std::move(residuals_m), quantum_m);
   fit.model = fitResiduals(residualsOf(fit.map_readings.readings, jump_m, range_max_m), quantum_m);
   fit.map_model = fitBeamModel(fit.map_readings.readings, range_max_m);
   for (std::size_t i = 0; i < fit.folds.size(); ++i) {
@@ -206,23 +206,24 @@ double ScannerFit::comparisonLevel() const {
   return kVerdictLevel / static_cast<double>(comparisons);
 }
 
-double ScannerFit::ksOf(const PairStatistics& held_out, const PairStatistics& of_model, std::size_t band) const {
+double ScannerFit::computeKs(const PairStatistics& held_out, const PairStatistics& of_model, std::size_t band) const {
   const double quantum_m = model.errors.quantum_m;
   return ksDistance(dequantised(held_out.differences_m[band], quantum_m, kSeed),
                     dequantised(of_model.differences_m[band], quantum_m, kSeed + 1));
 }
 
-double ScannerFit::ksBoundOf(std::size_t band) const {
+double ScannerFit::computeKsBound(std::size_t band) const {
   return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size(), comparisonLevel());
 }
 
 bool ScannerFit::isBeyondBound(const HeldOutFit& half, std::size_t band) const {
-  return !half.real.differences_m[band].empty() && ksOf(half.real, half.simulated, band) > half.ksBoundOf(band);
+  return !half.real.differences_m[band].empty() &&
+         computeKs(half.real, half.simulated, band) > half.computeKsBound(band);
 }
 
 bool ScannerFit::isAccepted() const {
   for (std::size_t band = 0; band < kBands; ++band) {
-    if (!real.differences_m[band].empty() && ksOf(band) > ksBoundOf(band)) return false;
+    if (!real.differences_m[band].empty() && computeKs(band) > computeKsBound(band)) return false;
   }
   for (const auto& fold : folds) {
     if (isJumpRateBeyond(fold, comparisonLevel()) || isFlipRateBeyond(fold, comparisonLevel())) return false;
@@ -324,13 +325,13 @@ std::string summaryOf(const ScannerFit& fit) {
     if (n == 0) continue;
     rows.push_back({bandName(band), fit.model.std_m[band] > 0 ? fixed(1000 * fit.model.std_m[band], 1) + " mm" : "–",
                     withCommas(n), withCommas(fit.simulated.differences_m[band].size()),
-                    fixed(fit.ksOf(band), 3) + (fit.ksOf(band) > fit.ksBoundOf(band) ? " !" : ""),
-                    fixed(fit.ksBoundOf(band), 3)});
+                    fixed(fit.computeKs(band), 3) + (fit.computeKs(band) > fit.computeKsBound(band) ? " !" : ""),
+                    fixed(fit.computeKsBound(band), 3)});
     for (std::size_t half = 0; half < fit.folds.size(); ++half) {
       const HeldOutFit& fold = fit.folds[half];
       const bool is_beyond = fit.isBeyondBound(fold, band);
-      rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + (is_beyond ? " !" : ""));
-      rows.back().push_back(fixed(fold.ksBoundOf(band), 3));
+      rows.back().push_back(fixed(fit.computeKs(fold.real, fold.simulated, band), 3) + (is_beyond ? " !" : ""));
+      rows.back().push_back(fixed(fold.computeKsBound(band), 3));
       if (!is_beyond) continue;
       beyond +=
           (beyond.empty() ? "" : ", ") + std::string(half == 0 ? "odd " : "even ") + parts + " at " + bandName(band);

@@ -45,9 +45,9 @@ struct ScannerFit {
   BeamModel map_model;  ///< of these
 
   /// Kolmogorov–Smirnov distance of the dequantised differences of a band, held out against simulated.
-  double ksOf(std::size_t band) const { return ksOf(real, simulated, band); }
-  double ksOf(const PairStatistics& held_out, const PairStatistics& model, std::size_t band) const;
-  double ksBoundOf(std::size_t band) const;
+  double computeKs(std::size_t band) const { return computeKs(real, simulated, band); }
+  double computeKs(const PairStatistics& held_out, const PairStatistics& model, std::size_t band) const;
+  double computeKsBound(std::size_t band) const;
   /// Whether the distance of one half of the pairs exceeds the bound of its own numbers of differences.
   bool isBeyondBound(const HeldOutFit& half, std::size_t band) const;
   /// Level of each comparison of the verdict: kVerdictLevel divided by their number (Bonferroni, 1936).

@@ -109,7 +109,7 @@ class StandingScanner {
 
 std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs,
                                       const LostEchoes& echoes, double jump_m) {
-  const std::vector<std::size_t> scans = scansOf(pairs);
+  const std::vector<std::size_t> scans = listScans(pairs);
   std::vector<SeenSurface> seen(series.scans.empty() ? 0 : series.scans.front().ranges_m.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
     std::vector<double> valid_m;

@@ -16,8 +16,8 @@ struct SeenSurface {
 };
 
 /// The surfaces seen in the scans of pairs, which all belong to one pose of the robot.
-/// @param echoes lostEchoesOf(): steady beams count as valid in all scans
-/// @param jump_m jumpLimitOf()
+/// @param echoes countLostEchoes(): steady beams count as valid in all scans
+/// @param jump_m computeJumpLimit()
 std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs,
                                       const LostEchoes& echoes, double jump_m);
 

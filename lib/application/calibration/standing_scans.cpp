@@ -232,7 +232,7 @@ std::vector<std::vector<ScanPair>> standingGroups(const ScanSeries& series, cons
   return groups;
 }
 
-std::vector<std::size_t> scansOf(const std::vector<ScanPair>& pairs) {
+std::vector<std::size_t> listScans(const std::vector<ScanPair>& pairs) {
   std::vector<std::size_t> scans;
   for (const auto& pair : pairs) {
     for (const std::size_t scan : {pair.first, pair.first + 1}) {
@@ -243,7 +243,7 @@ std::vector<std::size_t> scansOf(const std::vector<ScanPair>& pairs) {
 }
 
 std::vector<double> medianRanges(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
-  const std::vector<std::size_t> scans = scansOf(pairs);
+  const std::vector<std::size_t> scans = listScans(pairs);
   std::vector<double> median_m(series.scans.empty() ? 0 : series.scans.front().ranges_m.size(), kInvalid);
   std::vector<double> valid_m;
   for (std::size_t i = 0; i < median_m.size(); ++i) {

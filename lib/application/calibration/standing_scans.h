@@ -53,7 +53,7 @@ std::vector<ScanPair> standingPairs(const ScanSeries& series);
 std::vector<std::vector<ScanPair>> standingGroups(const ScanSeries& series, const std::vector<ScanPair>& pairs);
 
 /// The scans of pairs, in order.
-std::vector<std::size_t> scansOf(const std::vector<ScanPair>& pairs);
+std::vector<std::size_t> listScans(const std::vector<ScanPair>& pairs);
 
 /// Median of the valid readings of each beam in the scans of pairs of one place; NaN without any.
 std::vector<double> medianRanges(const ScanSeries& series, const std::vector<ScanPair>& pairs);

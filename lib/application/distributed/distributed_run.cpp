@@ -71,7 +71,7 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
   std::string identity;
   agree(group_, [&] {
     run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere);
-    identity = identityOf(*run_->environment().model(), given, distribution_);
+    identity = describeIdentity(*run_->environment().model(), given, distribution_);
   });
 
   group_.allGather(identity, all_);
@@ -153,7 +153,7 @@ void DistributedRun::countReceived(const std::vector<std::string>& by_rank) {
 }
 
 template <typename Write>
-void DistributedRun::exchangeOf(Part part, const RobotsByRank& known, const Write& write) {
+void DistributedRun::exchangeWith(Part part, const RobotsByRank& known, const Write& write) {
   if (!near_) {
     out_.clear();
     write(known[0], out_);
@@ -216,8 +216,8 @@ void DistributedRun::throwFirstSent(const std::exception_ptr& own) {
 
 void DistributedRun::exchangePaths() {
   const PhaseResults results = run_->environment().phases().results();
-  exchangeOf(clips, motion_of_,
-             [&](std::span<const std::uint32_t> known, std::string& out) { writePaths(results, known, out); });
+  exchangeWith(clips, motion_of_,
+               [&](std::span<const std::uint32_t> known, std::string& out) { writePaths(results, known, out); });
   for (std::size_t rank = 0; rank < all_.size(); ++rank) {
     if (rank != own_) readPaths(all_[rank], shares_.work[rank], results);
   }
@@ -227,7 +227,7 @@ void DistributedRun::exchangePaths() {
 void DistributedRun::exchangeStays(bool is_end_requested) {
   const PhaseResults results = run_->environment().phases().results();
   is_end_requested_ |= is_end_requested;
-  exchangeOf(judgements, motion_of_, [&](std::span<const std::uint32_t> known, std::string& out) {
+  exchangeWith(judgements, motion_of_, [&](std::span<const std::uint32_t> known, std::string& out) {
     out.push_back(is_end_requested ? 1 : 0);
     writeStays(results, known, out);
     if (out.size() == 1 && !is_end_requested) out.clear();

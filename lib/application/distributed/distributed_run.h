@@ -89,7 +89,7 @@ class DistributedRun {
   /// Sends to each rank what `write` appends for the robots that it knows, of those of this rank; all_ is what the
   /// others have sent. @param part in which write() takes time
   template <typename Write>
-  void exchangeOf(Part part, const RobotsByRank& known, const Write& write);
+  void exchangeWith(Part part, const RobotsByRank& known, const Write& write);
 
   /// @name Known robots (distributed_run_known.cpp)
   ///@{

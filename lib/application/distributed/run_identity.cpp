@@ -41,7 +41,7 @@ constexpr std::size_t kVersionAt = kDigests * sizeof(std::uint64_t);  ///< after
 
 }  // namespace
 
-std::string identityOf(const Model& model, const RunOptions& options, const DistributionOptions& distribution) {
+std::string describeIdentity(const Model& model, const RunOptions& options, const DistributionOptions& distribution) {
   StateWriter identity;
   identity.addNumber(digestOf(model));
   identity.addNumber(digestOfControllers(model.fleet, options.controller));

@@ -13,7 +13,7 @@ RunTables::RunTables(std::vector<RecordingOutput> tables, const std::string& wor
     : tables_(std::move(tables)) {
   if (tables_.empty()) return;
   for (const auto& table : tables_) {
-    refuseOverwriting(inputFilesOf(world, environment.world()), {table.file});
+    refuseOverwriting(listInputFiles(world, environment.world()), {table.file});
     checkWritable(table.file);
   }
   std::vector<RobotInfo> robots;

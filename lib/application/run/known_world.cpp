@@ -30,7 +30,7 @@ void occupy(const Outline& outline, KnownWorld& known) {
 
 }  // namespace
 
-std::shared_ptr<const KnownWorld> knownWorldOf(const World& world, const Fleet& fleet) {
+std::shared_ptr<const KnownWorld> makeKnownWorld(const World& world, const Fleet& fleet) {
   auto known = std::make_shared<KnownWorld>();
   const double width_m = world.bounds.x_max - world.bounds.x_min, length_m = world.bounds.y_max - world.bounds.y_min;
   known->low = {world.bounds.x_min, world.bounds.y_min};

@@ -35,7 +35,7 @@ std::vector<std::size_t> occupiedOf(const KnownWorld& known) {
 }
 
 TEST(KnownWorld, HasCellsOf5CmFromTheLowerLeftCorner) {
-  const auto known = knownWorldOf(emptyWorld(), oneRobot());
+  const auto known = makeKnownWorld(emptyWorld(), oneRobot());
   EXPECT_EQ(known->columns, 80u);
   EXPECT_EQ(known->rows, 40u);
   EXPECT_NEAR(known->center(0).x, -0.975, 1e-12);
@@ -47,7 +47,7 @@ TEST(KnownWorld, ContainsObstaclesAtTheHeightOfRobots) {
   World world = emptyWorld();
   world.objects.push_back(boxAt(0, 3, 0.12, 0.12));     // x from -0.06 to 0.06, y from 2.94 to 3.06
   world.objects.push_back(boxAt(1, 3, 0.1, 0.1, 0.9));  // from 0.6 m, above the robot
-  const auto known = knownWorldOf(world, oneRobot());
+  const auto known = makeKnownWorld(world, oneRobot());
   // The centres of two cells by two are in it, and those around them are 1.5 cm away, or 2.1 cm at the corners.
   EXPECT_EQ(occupiedOf(*known).size(), 16u);
 }
@@ -57,7 +57,7 @@ TEST(KnownWorld, ContainsTheHeatSources) {
   world.objects.push_back(boxAt(0, 3, 0.1, 0.1));
   world.objects.push_back(boxAt(1, 3, 0.1, 0.1));
   world.objects.back().body.heat_celsius = 20;
-  const auto known = knownWorldOf(world, oneRobot());
+  const auto known = makeKnownWorld(world, oneRobot());
   ASSERT_EQ(known->sources.size(), 1u);
   EXPECT_EQ(known->sources[0].place, mrpt::math::TPoint2D(1, 3));
   EXPECT_EQ(known->sources[0].heat_celsius, 20);
@@ -66,7 +66,7 @@ TEST(KnownWorld, ContainsTheHeatSources) {
 TEST(KnownWorld, HasLargerCellsInALargeWorld) {
   World world = emptyWorld();
   world.bounds = {0, 400, 0, 400};  // 160,000 m² in 4,000,000 cells
-  EXPECT_NEAR(knownWorldOf(world, oneRobot())->cell_m, 0.2, 1e-12);
+  EXPECT_NEAR(makeKnownWorld(world, oneRobot())->cell_m, 0.2, 1e-12);
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     const std::string name = controllerOf(robots[i].controller, options.controller);
     ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i), robots[i].world_from_start};
     if (knowsWorld(name)) {
-      if (!known_world) known_world = knownWorldOf(environment_.world(), environment_.fleet());
+      if (!known_world) known_world = makeKnownWorld(environment_.world(), environment_.fleet());
       setup.known_world = known_world;
     }
     local_robots_.push_back(
@@ -194,7 +194,7 @@ LocalRun::LocalRun(ForkOf original)
                         "process run its controller");
     }
     const std::string& controller_name = (*local)->controller_name;
-    auto controller = cloneOf(*(*local)->controller, controller_name, name);
+    auto controller = cloneController(*(*local)->controller, controller_name, name);
     local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, controller_name, std::move(controller)));
     local_robots_.back()->breakdown_s = (*local)->breakdown_s;
     ++local;

@@ -18,7 +18,7 @@ fs::path partOf(fs::path file) { return file += ".part"; }
 
 }  // namespace
 
-std::vector<fs::path> inputFilesOf(const std::string& world_file, const World& world) {
+std::vector<fs::path> listInputFiles(const std::string& world_file, const World& world) {
   std::vector<fs::path> files{world_file};
   const fs::path folder = fs::path(world_file).parent_path();
   for (const auto& map : world.maps) {

@@ -8,7 +8,7 @@
 namespace robosim {
 
 /// Input files of a world: the world file, its maps with their images, and the robot type files in its search path.
-std::vector<std::filesystem::path> inputFilesOf(const std::string& world_file, const World& world);
+std::vector<std::filesystem::path> listInputFiles(const std::string& world_file, const World& world);
 
 /// Rejects outputs that would replace an input: equal canonical path, or the same device and inode; includes the
 /// temporary name "<name>.part".

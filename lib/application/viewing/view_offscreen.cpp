@@ -106,12 +106,12 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
 }  // namespace
 
 bool isFigure(const std::string& file) {
-  const auto format = pictureFormatOf(file);
+  const auto format = recognizePictureFormat(file);
   return format && *format != PictureFormat::png;
 }
 
 void checkOffscreenFile(const std::string& file) {
-  if (!isVideo(file) && !pictureFormatOf(file)) {
+  if (!isVideo(file) && !recognizePictureFormat(file)) {
     throw ConfigError(
         "--offscreen " + file +
         ": must end in .png, for a picture, in .svg or .pdf, for a figure, or in .mp4, .webm or .webp, for a "

@@ -74,7 +74,7 @@ class ViewSource {
 };
 
 /// Snapshot of the latest step of an environment in this process, with all readings.
-RunSnapshot snapshotOf(const Environment& environment);
+RunSnapshot takeSnapshot(const Environment& environment);
 
 /// A world in its initial state; a map file stands for a world that consists of this map only.
 /// @param changes of the world

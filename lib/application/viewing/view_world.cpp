@@ -12,13 +12,13 @@ class WorldView final : public ViewSource {
   WorldView(const std::string& file, LoadedWorld world, std::uint64_t seed = 1)
       : title_(file), world_(std::move(world)) {
     // An environment measures the readings at the start poses.
-    snapshot_ = snapshotOf(Environment(world_.world, world_.fleet, {.seed = seed}));
+    snapshot_ = takeSnapshot(Environment(world_.world, world_.fleet, {.seed = seed}));
   }
 
   const LoadedWorld& world() const override { return world_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
   const RunPaths& paths() const override { return paths_; }
-  std::vector<std::filesystem::path> inputs() const override { return inputFilesOf(title_, world_.world); }
+  std::vector<std::filesystem::path> inputs() const override { return listInputFiles(title_, world_.world); }
   std::string title() const override { return title_; }
   bool advance(double) override { return false; }
   bool isOver() const override { return true; }
@@ -32,7 +32,7 @@ class WorldView final : public ViewSource {
 
 }  // namespace
 
-RunSnapshot snapshotOf(const Environment& environment) {
+RunSnapshot takeSnapshot(const Environment& environment) {
   const State& state = environment.state();
   RunSnapshot snapshot{state.time.step, state.time.seconds(), {}, state.objects};
   for (std::size_t i = 0; i < environment.robotCount(); ++i) {

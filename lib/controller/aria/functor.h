@@ -8,7 +8,7 @@ using Functor = std::function<void()>;
 
 /// Calls a method of an object, in the place of ARIA's ArFunctorC. The object must outlive the functor.
 template <typename Object, typename Method>
-Functor functorOf(Object& object, Method method) {
+Functor makeFunctor(Object& object, Method method) {
   return [&object, method] { (object.*method)(); };
 }
 

@@ -15,9 +15,9 @@ struct Log {
 TEST(TaskList, CallsTheHighestPositionFirst) {
   Log log;
   TaskList tasks;
-  EXPECT_TRUE(tasks.add("low", 10, functorOf(log, &Log::a)));
-  EXPECT_TRUE(tasks.add("high", 90, functorOf(log, &Log::b)));
-  EXPECT_TRUE(tasks.add("high too", 90, functorOf(log, &Log::c)));
+  EXPECT_TRUE(tasks.add("low", 10, makeFunctor(log, &Log::a)));
+  EXPECT_TRUE(tasks.add("high", 90, makeFunctor(log, &Log::b)));
+  EXPECT_TRUE(tasks.add("high too", 90, makeFunctor(log, &Log::c)));
   tasks.run();
   EXPECT_EQ(log.text, "bca");
 }
@@ -25,8 +25,8 @@ TEST(TaskList, CallsTheHighestPositionFirst) {
 TEST(TaskList, RefusesASecondTaskOfAName) {
   Log log;
   TaskList tasks;
-  EXPECT_TRUE(tasks.add("task", 1, functorOf(log, &Log::a)));
-  EXPECT_FALSE(tasks.add("task", 2, functorOf(log, &Log::b)));
+  EXPECT_TRUE(tasks.add("task", 1, makeFunctor(log, &Log::a)));
+  EXPECT_FALSE(tasks.add("task", 2, makeFunctor(log, &Log::b)));
   EXPECT_TRUE(tasks.has("task"));
   EXPECT_TRUE(tasks.rem("task"));
   EXPECT_FALSE(tasks.rem("task"));
@@ -41,7 +41,7 @@ TEST(TaskList, LetsATaskRemoveItself) {
     log.a();
     tasks.rem("once");
   });
-  tasks.add("always", 1, functorOf(log, &Log::b));
+  tasks.add("always", 1, makeFunctor(log, &Log::b));
   tasks.run();
   tasks.run();
   EXPECT_EQ(log.text, "abb");
@@ -50,9 +50,9 @@ TEST(TaskList, LetsATaskRemoveItself) {
 TEST(CallbackList, CallsInOrderAndForgetsByNumber) {
   Log log;
   CallbackList callbacks;
-  callbacks.add(functorOf(log, &Log::a));
-  const int b = callbacks.add(functorOf(log, &Log::b));
-  callbacks.add(functorOf(log, &Log::c), ListPos::FIRST);
+  callbacks.add(makeFunctor(log, &Log::a));
+  const int b = callbacks.add(makeFunctor(log, &Log::b));
+  callbacks.add(makeFunctor(log, &Log::c), ListPos::FIRST);
   callbacks.call();
   EXPECT_EQ(log.text, "cab");
   EXPECT_TRUE(callbacks.rem(b));

@@ -4,7 +4,8 @@
 
 namespace robosim {
 
-std::unique_ptr<Controller> cloneOf(const Controller& controller, const std::string& name, const std::string& robot) {
+std::unique_ptr<Controller> cloneController(const Controller& controller, const std::string& name,
+                                            const std::string& robot) {
   auto copy = controller.clone();
   if (copy) return copy;
   throw ConfigError("robot '" + robot + "': its controller " + name +

@@ -23,6 +23,7 @@ class Controller {
 /// The controller's clone(), for a fork.
 /// @param name of the controller, @param robot name of its robot, for the error
 /// @throws ConfigError naming both when the controller cannot be copied
-std::unique_ptr<Controller> cloneOf(const Controller& controller, const std::string& name, const std::string& robot);
+std::unique_ptr<Controller> cloneController(const Controller& controller, const std::string& name,
+                                            const std::string& robot);
 
 }  // namespace robosim

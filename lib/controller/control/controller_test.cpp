@@ -24,7 +24,7 @@ TEST(Controller, CloneContinuesFromTheSameStateOnAnotherRobot) {
   Robot robot(here);
   Accelerator controller;
   for (int i = 0; i < 3; ++i) controller.step(robot);
-  const auto copy = cloneOf(controller, "accelerator", "fake");
+  const auto copy = cloneController(controller, "accelerator", "fake");
   controller.step(robot);
   controller.step(robot);
   there.command(robot.command());
@@ -39,7 +39,7 @@ TEST(Controller, WithoutCloneIsNamedByTheError) {
   // Its program is in the middle of a loop, on the stack of a thread.
   const BlockingController controller([](Robot&, StepClock& clock) { clock.waitForNextStep(); });
   try {
-    cloneOf(controller, "loop", "Robo");
+    cloneController(controller, "loop", "Robo");
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),

@@ -25,7 +25,7 @@ void TeamTargets::set(const std::string& robot, const std::optional<mrpt::math::
   }
 }
 
-int TeamTargets::costOf(const Cell& cell) const {
+int TeamTargets::computeCost(const Cell& cell) const {
   const mrpt::math::TPoint2D place((cell.x + 0.5) * cell_m_, (cell.y + 0.5) * cell_m_);
   double discount_m = 0;
   for (const auto& [robot, target] : targets_) {

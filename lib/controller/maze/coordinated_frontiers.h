@@ -29,7 +29,7 @@ class TeamTargets : public GoalCost {
   /// Sets the target of a robot [m, world frame]; nullopt for none.
   void set(const std::string& robot, const std::optional<mrpt::math::TPoint2D>& target);
   /// Sum over the targets of discount_m · (1 - distance / range_m), where that is positive.
-  int costOf(const Cell& cell) const override;
+  int computeCost(const Cell& cell) const override;
 
  private:
   CoordinatedFrontiersOptions options_;

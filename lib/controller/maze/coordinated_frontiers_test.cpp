@@ -13,15 +13,15 @@ const mrpt::math::TPose2D kStart(10, 5, 0);
 
 TEST(TeamTargets, CostDecreasesLinearlyWithTheDistance) {
   TeamTargets targets({.range_m = 4, .discount_m = 8}, 0.2);
-  EXPECT_EQ(targets.costOf({0, 0}), 0);
+  EXPECT_EQ(targets.computeCost({0, 0}), 0);
   targets.set("A", mrpt::math::TPoint2D(0.1, 0.1));
-  EXPECT_EQ(targets.costOf({0, 0}), 80) << "8 m in cells of 0.2 m, 2 each";
-  EXPECT_EQ(targets.costOf({10, 0}), 40) << "2 m away";
-  EXPECT_EQ(targets.costOf({20, 0}), 0) << "4 m away";
+  EXPECT_EQ(targets.computeCost({0, 0}), 80) << "8 m in cells of 0.2 m, 2 each";
+  EXPECT_EQ(targets.computeCost({10, 0}), 40) << "2 m away";
+  EXPECT_EQ(targets.computeCost({20, 0}), 0) << "4 m away";
   targets.set("B", mrpt::math::TPoint2D(4.1, 0.1));
-  EXPECT_EQ(targets.costOf({10, 0}), 80) << "2 m from both";
+  EXPECT_EQ(targets.computeCost({10, 0}), 80) << "2 m from both";
   targets.set("A", std::nullopt);
-  EXPECT_EQ(targets.costOf({0, 0}), 0);
+  EXPECT_EQ(targets.computeCost({0, 0}), 0);
 }
 
 TEST(TargetMessage, RoundTrips) {

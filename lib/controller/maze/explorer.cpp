@@ -201,7 +201,7 @@ bool Explorer::planToSearch(const Cell& start, const GoalCost* goal_cost) {
     if (search_.map[cell].searched || isSliver(cell)) return -1;
     const double x = cell.x - start.x, y = cell.y - start.y;
     const int turn = static_cast<int>(kTurnCost * (1 - (x * ahead.cos + y * ahead.sin) / portable::hypot(x, y)));
-    return turn + (goal_cost ? goal_cost->costOf(cell) : 0);
+    return turn + (goal_cost ? goal_cost->computeCost(cell) : 0);
   });
 }
 

@@ -36,7 +36,7 @@ class GoalCost {
  public:
   virtual ~GoalCost() = default;
   /// >= 0, in the unit of Wavefront::kStraight.
-  virtual int costOf(const Cell&) const = 0;
+  virtual int computeCost(const Cell&) const = 0;
 };
 
 /// Explores an unknown environment until all reachable cells have been searched for heat, and approaches heat sources.

@@ -36,7 +36,7 @@ void Market::step(Robot& robot) {
   if (const auto part = sharing_.next(explorer_->map())) robot.broadcast(part->text());
 }
 
-std::int64_t Market::priceOf(const mrpt::math::TPoint2D& place, bool after_task) const {
+std::int64_t Market::computePrice(const mrpt::math::TPoint2D& place, bool after_task) const {
   const auto goal = after_task ? explorer_->searchGoal() : std::nullopt;
   const auto& pose = explorer_->pose();
   const mrpt::math::TPoint2D here(pose.x, pose.y);
@@ -55,7 +55,7 @@ void Market::listen(Robot& robot) {
     if (!deal) continue;
     switch (deal->act) {
       case MarketMessage::Act::auction: {
-        const std::int64_t price_cm = priceOf(regions_->center(deal->region), true);
+        const std::int64_t price_cm = computePrice(regions_->center(deal->region), true);
         if (price_cm < deal->price_cm) {
           robot.send(message.from, MarketMessage{MarketMessage::Act::bid, deal->region, price_cm}.text());
         }
@@ -80,7 +80,7 @@ void Market::trade(Robot& robot) {
   if (!goal || regions_->isAuctioning()) return;
   const Cell region = regions_->regionAt(explorer_->map().center(*goal));
   if (regions_->ownerOf(region) >= 0) return;
-  robot.broadcast(regions_->auction(region, priceOf(regions_->center(region), false)).text());
+  robot.broadcast(regions_->auction(region, computePrice(regions_->center(region), false)).text());
 }
 
 }  // namespace robosim

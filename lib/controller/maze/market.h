@@ -35,7 +35,7 @@ class Market : public Controller {
   void listen(Robot& robot);
   void trade(Robot& robot);
   /// Cost [cm] of driving to a place, from the robot or, if it has a task, from the end of that.
-  std::int64_t priceOf(const mrpt::math::TPoint2D& place, bool after_task) const;
+  std::int64_t computePrice(const mrpt::math::TPoint2D& place, bool after_task) const;
 
   ControllerSetup setup_;
   MarketOptions options_;

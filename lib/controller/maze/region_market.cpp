@@ -38,7 +38,7 @@ int RegionMarket::ownerOf(const Cell& region) const {
   return step_ < lot.until ? lot.owner : -1;
 }
 
-int RegionMarket::costOf(const Cell& map_cell) const {
+int RegionMarket::computeCost(const Cell& map_cell) const {
   const int owner = ownerOf(regionAt({(map_cell.x + 0.5) * options_.cell_m, (map_cell.y + 0.5) * options_.cell_m}));
   if (owner == options_.robot) return 0;
   return static_cast<int>(Wavefront::kStraight * (owner < 0 ? kFree_m : kOthers_m) / options_.cell_m);

@@ -45,7 +45,7 @@ class RegionMarket : public GoalCost {
   /// Index of the owner in the present step; -1 for none.
   int ownerOf(const Cell& region) const;
   /// A free region costs 2 m of path, one of another robot 30 m, and an own one nothing.
-  int costOf(const Cell& map_cell) const override;
+  int computeCost(const Cell& map_cell) const override;
 
   bool isAuctioning() const { return auction_.has_value(); }
   /// Begins an auction in which this robot bids `price_cm`. @return the offer, for all other robots

@@ -74,9 +74,9 @@ TEST(RegionMarket, PrefersOwnRegionsToFreeOnesAndThoseToOthers) {
   RegionMarket regions = market();
   regions.sold({0, 0}, 10, 1);
   regions.sold({1, 0}, 10, 2);
-  EXPECT_EQ(regions.costOf({39, 0}), 0);
-  EXPECT_EQ(regions.costOf({40, 0}), 600) << "30 m in cells of 0.1 m, 2 each";
-  EXPECT_EQ(regions.costOf({80, 0}), 40) << "2 m";
+  EXPECT_EQ(regions.computeCost({39, 0}), 0);
+  EXPECT_EQ(regions.computeCost({40, 0}), 600) << "30 m in cells of 0.1 m, 2 each";
+  EXPECT_EQ(regions.computeCost({80, 0}), 40) << "2 m";
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ mrpt::math::TPose3D mountOf(const SensorInfo& sensor) {
   return sensor.beams.empty() ? mrpt::math::TPose3D::Identity() : sensor.beams[0].robot_from_beam;
 }
 
-const Codec& codecOf(const SensorInfo& sensor) {
+const Codec& findCodec(const SensorInfo& sensor) {
   for (const Codec* codec : codecs()) {
     if (codec->encodes(sensor)) return *codec;
   }

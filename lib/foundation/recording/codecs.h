@@ -26,6 +26,6 @@ const Codec& valuesCodec();
 std::vector<const Codec*> codecs();
 
 /// The codec of a sensor's measurements.
-const Codec& codecOf(const SensorInfo&);
+const Codec& findCodec(const SensorInfo&);
 
 }  // namespace robosim

@@ -27,7 +27,7 @@ class ImageCodec : public CodecOf<JpegObservation, Image> {
              std::string("the class should be ") + CObservationImage::GetRuntimeClassIdStatic().className);
     }
     if (!image->image.isExternallyStored() && image->image.isEmpty()) refuse(observation, sensor, "it has no picture");
-    return Image{checkedJpegOf(*image, pictures)};
+    return Image{extractCheckedJpeg(*image, pictures)};
   }
 
  private:

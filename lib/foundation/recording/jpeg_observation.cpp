@@ -101,15 +101,15 @@ void JpegObservation::serializeTo(mrpt::serialization::CArchive& out) const {
   out.WriteBuffer(bytes.data() + after, bytes.size() - after);
 }
 
-std::string jpegOf(const mrpt::obs::CObservationImage& observation, const fs::path& pictures) {
+std::string extractJpeg(const mrpt::obs::CObservationImage& observation, const fs::path& pictures) {
   if (observation.image.isExternallyStored()) return fileOf(observation.image, pictures);
   mrpt::io::CMemoryStream stream;
   observation.image.saveToStreamAsJPEG(stream);
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
 }
 
-std::string checkedJpegOf(const mrpt::obs::CObservationImage& observation, const fs::path& pictures) {
-  std::string jpeg = jpegOf(observation, pictures);
+std::string extractCheckedJpeg(const mrpt::obs::CObservationImage& observation, const fs::path& pictures) {
+  std::string jpeg = extractJpeg(observation, pictures);
   if (!observation.image.isExternallyStored()) return jpeg;  // decoded before
   if (const std::string fault = jpegFault(jpeg); !fault.empty()) {
     throw RecordingError((pictures / observation.image.getExternalStorageFile()).string() +

@@ -23,8 +23,8 @@ class JpegObservation : public mrpt::obs::CObservationImage {
 /// @param pictures the recording's folder of images
 /// @throws RecordingError when the file does not exist, is not in this folder or below it (links are followed only
 ///         within it), is not a regular file, or is larger than 64 MiB; std::exception when there is no image.
-std::string jpegOf(const mrpt::obs::CObservationImage&, const std::filesystem::path& pictures);
+std::string extractJpeg(const mrpt::obs::CObservationImage&, const std::filesystem::path& pictures);
 /// The same. @throws RecordingError also when an external file is damaged or not a JPEG file
-std::string checkedJpegOf(const mrpt::obs::CObservationImage&, const std::filesystem::path& pictures);
+std::string extractCheckedJpeg(const mrpt::obs::CObservationImage&, const std::filesystem::path& pictures);
 
 }  // namespace robosim

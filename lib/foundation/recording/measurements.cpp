@@ -6,7 +6,7 @@ namespace robosim {
 
 Measurement measurementFrom(const mrpt::obs::CObservation& observation, const SensorInfo& sensor, float laser_pan_rad,
                             const std::filesystem::path& pictures) {
-  return codecOf(sensor).measurementFrom(observation, sensor, laser_pan_rad, pictures);
+  return findCodec(sensor).measurementFrom(observation, sensor, laser_pan_rad, pictures);
 }
 
 }  // namespace robosim

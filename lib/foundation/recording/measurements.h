@@ -11,7 +11,7 @@ namespace robosim {
 /// Converts an observation of this sensor back to the recorded reading. The result is exact, except for
 ///  * an echo's point, which is placed on the beam's axis at the recorded range; restorePoints()
 ///    (robot_status_record.h) restores points off the axis;
-///  * an embedded image, which is compressed again (jpegOf()), with the loss of one more compression.
+///  * an embedded image, which is compressed again (extractJpeg()), with the loss of one more compression.
 /// @param laser_pan_rad pan angle of the panning sensors
 /// @param pictures RawlogReader::pictureFolder(), for external images
 /// @throws RecordingError when the observation's class or size does not match the sensor.

@@ -200,7 +200,7 @@ class PictureFileTest : public TestFolder {
   std::string pictureNamed(const std::string& name, const std::string& folder = "run_Images") {
     mrpt::obs::CObservationImage observation;
     observation.image.setExternalStorage(name);
-    return jpegOf(observation, in(folder));
+    return extractJpeg(observation, in(folder));
   }
   std::string refusalOf(const std::string& name) {
     try {

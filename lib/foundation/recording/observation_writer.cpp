@@ -20,7 +20,7 @@ void ObservationWriter::write(const mrpt::obs::CObservation& observation) {
     const mrpt::img::CImage placeholder = embedded.image;
     static_cast<mrpt::obs::CObservationImage&>(embedded) = *image;
     embedded.image = placeholder;
-    embedded.jpeg = checkedJpegOf(*image, pictures_);
+    embedded.jpeg = extractCheckedJpeg(*image, pictures_);
     buffer_.WriteObject(&embedded);
   } else {
     buffer_.WriteObject(&observation);

@@ -16,7 +16,7 @@ class ObservationWriter {
   /// @throws ConfigError when the file cannot be created, or another program writes it.
   ObservationWriter(const std::filesystem::path& file, std::filesystem::path pictures);
 
-  /// @throws RecordingError when an image or the file fails (jpegOf(), GzipFile::write()).
+  /// @throws RecordingError when an image or the file fails (extractJpeg(), GzipFile::write()).
   void write(const mrpt::obs::CObservation&);
   /// @throws RecordingError as GzipFile::commit().
   void commit();

@@ -39,7 +39,7 @@ Measurement probeOf(const SensorInfo& sensor, Rng& rng) {
 
 }  // namespace
 
-mrpt::Clock::time_point timestampOf(const SimTime& time) {
+mrpt::Clock::time_point toTimestamp(const SimTime& time) {
   const auto ticks = static_cast<mrpt::Clock::rep>(std::llround(time.seconds() * mrpt::Clock::period::den));
   return mrpt::Clock::fromDouble(kEpochUnixSeconds) + mrpt::Clock::duration(ticks);
 }
@@ -58,7 +58,7 @@ RobotObservations::RobotObservations(const RobotInfo& robot, PictureFolder* pict
   observations_.back()->sensorLabel = Label{robot.name, kGroundTruth, ""}.text();
   stems_.emplace_back();
   for (const std::size_t slot : slots_) {
-    codecs_.push_back(&codecOf((*sensors_)[slot]));
+    codecs_.push_back(&findCodec((*sensors_)[slot]));
     observations_.push_back(codecs_.back()->make((*sensors_)[slot]));
     const std::string label = Label{robot.name, (*sensors_)[slot].label, ""}.text();
     observations_.back()->sensorLabel = label;
@@ -88,7 +88,7 @@ bool RobotObservations::isKept(std::size_t slot, const Readings& readings) {
 std::span<const CObservation::Ptr> RobotObservations::of(const Readings& readings,
                                                          const std::optional<TPose2D>& world_from_robot) {
   assert(readings.measurements.size() == sensors_->size());
-  const auto timestamp = timestampOf(readings.time);
+  const auto timestamp = toTimestamp(readings.time);
   present_.clear();
   if (world_from_robot) {
     fillGroundTruth(*world_from_robot, timestamp);

@@ -28,7 +28,7 @@ class JpegObservation;
 constexpr std::int64_t kEpochUnixSeconds = 1'104'537'600;
 
 /// Simulated time as MRPT's timestamp (its unit is 100 ns).
-mrpt::Clock::time_point timestampOf(const SimTime&);
+mrpt::Clock::time_point toTimestamp(const SimTime&);
 /// Simulated time [s] since the start of the run.
 double secondsSinceStart(mrpt::Clock::time_point);
 

@@ -86,9 +86,9 @@ TEST(Observations, HaveTimestampsFrom2005On) {
 
 TEST(Observations, HaveExactTimestampsAfterAYear) {
   const SimTime year{3153600001, 0.01};
-  const auto since_epoch = timestampOf(year) - timestampOf({});
+  const auto since_epoch = toTimestamp(year) - toTimestamp({});
   EXPECT_EQ(since_epoch.count(), 315360000100000);
-  EXPECT_EQ(secondsSinceStart(timestampOf(year)), 31536000.01);
+  EXPECT_EQ(secondsSinceStart(toTimestamp(year)), 31536000.01);
 }
 
 TEST(Observations, RecordASonarRingAsOneObservation) {
@@ -303,7 +303,7 @@ TEST(Observations, RecordRangesAndBearingsOfNeighboursByTheirNumbers) {
   EXPECT_EQ(neighbours.sensor_std_range, 0.125f);
   EXPECT_EQ(neighbours.sensor_std_yaw, 0.0625f);
   EXPECT_NEAR(neighbours.sensorLocationOnRobot.z(), 0.1, 1e-9);
-  EXPECT_EQ(codecOf(board).measurementFrom(neighbours, board, 0, ""), Measurement(measured));
+  EXPECT_EQ(findCodec(board).measurementFrom(neighbours, board, 0, ""), Measurement(measured));
 }
 
 TEST(Observations, RecordOdometryWithPoseAndSpeeds) {

@@ -111,7 +111,7 @@ TEST(Codecs, RecordEveryKindOfSensor) {
   sensor.camera = {320, 240, 1, 10};
   for (std::size_t kind = 0; kind < kSensorKindNames.size(); ++kind) {
     sensor.kind = static_cast<SensorKind>(kind);
-    EXPECT_TRUE(codecOf(sensor).make(sensor)) << nameOf(sensor.kind);
+    EXPECT_TRUE(findCodec(sensor).make(sensor)) << nameOf(sensor.kind);
   }
 }
 

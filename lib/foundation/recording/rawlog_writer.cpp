@@ -83,7 +83,7 @@ void appendPair(RobotSerializer& serializer, const Readings& readings, const std
   const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
 
   mrpt::obs::CActionRobotMovement2D movement;
-  movement.timestamp = timestampOf(readings.time);
+  movement.timestamp = toTimestamp(readings.time);
   movement.computeFromOdometry(odom_from_robot - serializer.odom_from_robot.value_or(odom_from_robot), {});
   serializer.odom_from_robot = odom_from_robot;
   mrpt::obs::CActionCollection actions;
@@ -164,7 +164,7 @@ void RawlogWriter::Impl::record(const Step& step) {
 void RawlogWriter::Impl::comment(const std::string& text, const SimTime& time) {
   if (text.empty()) return;
   const auto comment = mrpt::obs::CObservationComment::Create();
-  comment->timestamp = timestampOf(time);
+  comment->timestamp = toTimestamp(time);
   comment->text = text;
   for (auto& output : outputs) {
     if (format == RawlogFormat::observations) {

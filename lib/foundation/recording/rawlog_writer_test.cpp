@@ -98,7 +98,7 @@ TEST_F(RawlogWriterTest, WritesEveryStepOnceInManyBatches) {
     const std::size_t a_step = robots * (1 + run.robots[0].sensors->size());
     ASSERT_EQ(rawlog.size(), 1300 * a_step);
     for (std::size_t entry = 0; entry < rawlog.size(); ++entry) {
-      ASSERT_EQ(rawlog.getAsObservation(entry)->timestamp, timestampOf({entry / a_step, 0.1})) << "entry " << entry;
+      ASSERT_EQ(rawlog.getAsObservation(entry)->timestamp, toTimestamp({entry / a_step, 0.1})) << "entry " << entry;
     }
   }
 }
@@ -247,7 +247,7 @@ TEST_F(RawlogWriterTest, WritesActionsAsOdometryIncrementsInTheRobotsFrame) {
   CRawlog rawlog = loaded(in("run.rawlog"));
   const auto increment = [&](std::size_t i) {
     const auto action = rawlog.getAsAction(2 * i)->getActionByClass<mrpt::obs::CActionRobotMovement2D>();
-    EXPECT_EQ(action->timestamp, timestampOf({i, 0.1}));
+    EXPECT_EQ(action->timestamp, toTimestamp({i, 0.1}));
     EXPECT_EQ(action->estimationMethod, mrpt::obs::CActionRobotMovement2D::emOdometry);
     EXPECT_NEAR(action->poseChange->getMeanVal().distanceTo(action->rawOdometryIncrementReading), 0, 1e-12);
     return action->rawOdometryIncrementReading.asTPose();

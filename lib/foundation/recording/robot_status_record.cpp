@@ -41,7 +41,7 @@ std::optional<SerializedTemplate> templateOf(CObservationRawDAQ& daq, Lists&... 
   const auto bytes_of = [](const auto& value) { return std::as_bytes(std::span(value)); };
   return SerializedTemplate::of(daq, {bytes_of(std::span(&daq.timestamp, 1)), bytes_of(lists)...}, [&](int which) {
     // Numbers that do not occur elsewhere in the observation.
-    daq.timestamp = timestampOf({static_cast<std::uint64_t>(which) + 12345, 0.1});
+    daq.timestamp = toTimestamp({static_cast<std::uint64_t>(which) + 12345, 0.1});
     const auto fill = [which](auto& list) {
       for (auto& number : list) {
         number =
@@ -131,7 +131,7 @@ void RobotStatusRecord::write(const Readings& readings, const Command& command, 
 
 void RobotStatusRecord::fillStatus(const Readings& readings, const Command& command) {
   CObservationRawDAQ& status = *status_.observation;
-  status.timestamp = timestampOf(readings.time);
+  status.timestamp = toTimestamp(readings.time);
   status.AOUT_double[kSpeed] = command.speed_mps;
   status.AOUT_double[kTurn] = command.turn_radps;
   status.AOUT_double[kPan] = command.laser_pan_rad;
@@ -151,7 +151,7 @@ void RobotStatusRecord::forPoints(const Readings& readings, std::span<const std:
     const auto* echoes = std::get_if<Echoes>(&readings.measurements[slot]);
     if (!echoes || isAlongAxes(slot, *echoes, (*sensors_)[slot].pans ? readings.laser_pan_rad : 0)) continue;
     CObservationRawDAQ& points = *points_[slot].observation;
-    points.timestamp = timestampOf(readings.time);
+    points.timestamp = toTimestamp(readings.time);
     for (std::size_t i = 0; i < echoes->size(); ++i) {
       const auto& at = (*echoes)[i].point_m;
       points.AIN_float[3 * i] = at.x;
@@ -164,7 +164,7 @@ void RobotStatusRecord::forPoints(const Readings& readings, std::span<const std:
 
 CObservation::Ptr RobotStatusRecord::inboxOf(const Readings& readings) const {
   auto inbox = rawDaq({robot_, kInbox, ""});
-  inbox->timestamp = timestampOf(readings.time);
+  inbox->timestamp = toTimestamp(readings.time);
   for (const auto& message : readings.inbox) {
     append(inbox->DIN, message.from);
     append(inbox->DIN, message.text);

@@ -16,12 +16,12 @@ using mrpt::poses::CPose3D;
 class ScanCodec : public CodecOf<CObservation2DRangeScan, Echoes> {
  public:
   bool encodes(const SensorInfo& sensor) const override {
-    return sensor.kind == SensorKind::laser && scanGeometryOf(sensor.beams).has_value();
+    return sensor.kind == SensorKind::laser && toScanGeometry(sensor.beams).has_value();
   }
 
  private:
   void init(CObservation2DRangeScan& scan, const SensorInfo& sensor) const override {
-    const ScanGeometry geometry = *scanGeometryOf(sensor.beams);
+    const ScanGeometry geometry = *toScanGeometry(sensor.beams);
     scan.aperture = static_cast<float>(geometry.aperture_rad);
     scan.rightToLeft = geometry.step_rad > 0;
     scan.maxRange = static_cast<float>(sensor.range_max_m);
@@ -39,7 +39,7 @@ class ScanCodec : public CodecOf<CObservation2DRangeScan, Echoes> {
       scan.setScanRange(i, echoes[i].range_m);
       scan.setScanRangeValidity(i, !isNoEcho(sensor, echoes[i].range_m));
     }
-    if (sensor.pans) scan.sensorPose = CPose3D(panned(scanGeometryOf(sensor.beams)->robot_from_middle, pan_rad));
+    if (sensor.pans) scan.sensorPose = CPose3D(panned(toScanGeometry(sensor.beams)->robot_from_middle, pan_rad));
   }
 
   Echoes get(const CObservation2DRangeScan& scan, const SensorInfo& sensor, float pan_rad) const override {

@@ -6,7 +6,7 @@ namespace robosim {
 
 using mrpt::math::TPose3D;
 
-std::optional<ScanGeometry> scanGeometryOf(const std::vector<Beam>& beams) {
+std::optional<ScanGeometry> toScanGeometry(const std::vector<Beam>& beams) {
   constexpr double kSame = 1e-9;
   const auto wrapped = [](double angle_rad) { return std::remainder(angle_rad, 2 * M_PI); };
   if (beams.size() < 2) return std::nullopt;

@@ -17,7 +17,7 @@ struct ScanGeometry {
 };
 
 /// Geometry of a sensor's beams; nullopt for a single beam and for beams that do not form such a scan.
-std::optional<ScanGeometry> scanGeometryOf(const std::vector<Beam>& beams);
+std::optional<ScanGeometry> toScanGeometry(const std::vector<Beam>& beams);
 
 /// Pose of a beam of a sensor that is panned by `pan_rad` about its own vertical axis.
 mrpt::math::TPose3D panned(mrpt::math::TPose3D robot_from_beam, double pan_rad);

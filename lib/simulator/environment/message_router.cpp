@@ -112,8 +112,8 @@ void MessageRouter::transmit(std::uint32_t from, std::uint32_t to, std::size_t i
     ++lost.absent;
     return;
   }
-  switch (channel_.fateOf(delivery.seed, delivery.now, robots.scene,
-                          {from, to, index, robots.antenna(from), robots.antenna(to)})) {
+  switch (channel_.decideFate(delivery.seed, delivery.now, robots.scene,
+                              {from, to, index, robots.antenna(from), robots.antenna(to)})) {
     case MessageFate::out_of_range:
       ++lost.out_of_range;
       break;

@@ -18,7 +18,7 @@ constexpr double kGapTolerance_m = 1e-6;
 
 }  // namespace
 
-MessageFate RadioChannel::fateOf(std::uint64_t seed, const SimTime& now, const Scene& scene, const Way& way) const {
+MessageFate RadioChannel::decideFate(std::uint64_t seed, const SimTime& now, const Scene& scene, const Way& way) const {
   const Communication& c = communication_;
   const auto& a = way.from_antenna;
   const auto& b = way.to_antenna;

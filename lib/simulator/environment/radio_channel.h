@@ -34,7 +34,7 @@ class RadioChannel {
     std::size_t index = 0;                          ///< of the message among those of its sender in this step
     mrpt::math::TPoint3D from_antenna, to_antenna;  ///< world frame
   };
-  MessageFate fateOf(std::uint64_t seed, const SimTime& now, const Scene& scene, const Way& way) const;
+  MessageFate decideFate(std::uint64_t seed, const SimTime& now, const Scene& scene, const Way& way) const;
   /// Whether the channel of two robots is in the bad state.
   bool isBad(std::uint64_t seed, const SimTime& now, std::uint32_t a, std::uint32_t b) const;
   /// Number of walls between two points: connected parts of the line between them that stationary solids occupy. Solids

@@ -7,7 +7,7 @@
 
 namespace robosim {
 
-std::vector<Outline> goldOf(const std::vector<WorldObject>& objects) {
+std::vector<Outline> findGold(const std::vector<WorldObject>& objects) {
   std::vector<Outline> gold;
   for (const auto& object : objects) {
     if (object.body.heat_celsius != 0) gold.push_back(object.body.solid().outline);
@@ -16,7 +16,7 @@ std::vector<Outline> goldOf(const std::vector<WorldObject>& objects) {
 }
 
 Referee::Referee(const std::vector<WorldObject>& objects, double win_distance_m)
-    : gold_(goldOf(objects)), win_distance_m_(win_distance_m) {}
+    : gold_(findGold(objects)), win_distance_m_(win_distance_m) {}
 
 double Referee::distanceToGold(const Circle& disc) const {
   double nearest_m = std::numeric_limits<double>::infinity();

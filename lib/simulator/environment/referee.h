@@ -11,7 +11,7 @@
 namespace robosim {
 
 /// Outlines of the gold among objects: of every hot one.
-std::vector<Outline> goldOf(const std::vector<WorldObject>& objects);
+std::vector<Outline> findGold(const std::vector<WorldObject>& objects);
 
 /// Decides which robot wins (2005: CheckWin). Candidates are the robots that
 /// have requested CheckWin since the last decision and whose discs are within the world's win distance of gold, outline

@@ -49,7 +49,7 @@ RandomStarts::RandomStarts(const World& world, const Fleet& fleet)
     starts.emplace_back(robot.world_from_start.x, robot.world_from_start.y);
   }
   const FreeSpace raster(world, radius_m_, heights);
-  const std::vector<Outline> gold = goldOf(world.objects);
+  const std::vector<Outline> gold = findGold(world.objects);
   for (const auto cell : raster.reachableFrom(starts)) {
     Place& place = places_.emplace_back(Place{raster.place(cell), std::numeric_limits<double>::infinity()});
     for (const auto& outline : gold)

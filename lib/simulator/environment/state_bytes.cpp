@@ -34,7 +34,7 @@ T numberAt(std::string_view bytes, std::size_t place) {
   return number;
 }
 
-std::uint64_t checksumOf(std::string_view bytes) {
+std::uint64_t computeChecksum(std::string_view bytes) {
   Digest digest;
   digest.addBytes(bytes.data(), bytes.size());
   return digest.value();
@@ -307,7 +307,7 @@ std::string toBytes(const Model& model, const State& state) {
   if (state.digest) state.digest->save(out.bytes);
   const std::uint64_t size = out.bytes.size() + kChecksumBytes;
   std::memcpy(out.bytes.data() + kSizeAt, &size, sizeof size);
-  out.addNumber(checksumOf(out.bytes));
+  out.addNumber(computeChecksum(out.bytes));
   return std::move(out.bytes);
 }
 
@@ -322,7 +322,7 @@ State stateFromBytes(const Model& model, std::string_view bytes) {
                       " bytes in place of " + std::to_string(size) + "; copy it again, or save the state again");
   }
   const std::string_view checked = bytes.substr(0, bytes.size() - kChecksumBytes);
-  if (numberAt<std::uint64_t>(bytes, checked.size()) != checksumOf(checked)) {
+  if (numberAt<std::uint64_t>(bytes, checked.size()) != computeChecksum(checked)) {
     throw ConfigError("the saved state is damaged: its checksum differs; copy it again, or save the state again");
   }
   if (const auto version = numberAt<std::uint32_t>(bytes, kMagic.size()); version != kVersion) {

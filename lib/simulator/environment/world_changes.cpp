@@ -185,7 +185,7 @@ bool specifiesCommunication(const WorldSource& source) {
 
 /// The text of a type with noise added to its sensors.
 std::string textOf(const RobotTypeFile& type, AddedNoise noise) {
-  const std::string text = wholeTextOf(type);
+  const std::string text = resolveIncludes(type);
   if (noise == AddedNoise::none) return text;
   XmlElement root = parseXml(text, type.file.string());
   for (auto& child : root.children) {
@@ -219,7 +219,7 @@ AddedRobot AddedRobot::parse(const std::string& text) {
 WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, std::uint64_t seed) {
   if (changes.isNone()) return source;
   ErrorList errors;
-  World world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
+  World world = parseWorld(source.text, source.file, makeProvider(source.file, source.files), errors);
   const RobotTypes types = typesFor(source);
   placeScattered(world, source.file, types, source.seed.value_or(seed), errors);
   errors.throwIfAny();

@@ -30,7 +30,7 @@ void requireRobots(const LoadedWorld& world, const BatchOptions& options) {
 
 }  // namespace
 
-BatchAgents agentsOf(const LoadedWorld& world, const BatchOptions& options) {
+BatchAgents listAgents(const LoadedWorld& world, const BatchOptions& options) {
   const auto& robots = world.fleet.robots;
   requireRobots(world, options);
   BatchAgents agents;

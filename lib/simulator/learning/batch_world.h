@@ -31,7 +31,7 @@ struct BatchAgents {
 
 /// The agents of a batch's first world, which may be of different robot types.
 /// @throws ConfigError for a world with too few robots, and for ObservationLayout::ofTeam()
-BatchAgents agentsOf(const LoadedWorld& world, const BatchOptions& options);
+BatchAgents listAgents(const LoadedWorld& world, const BatchOptions& options);
 
 /// @throws ConfigError for a world whose robots differ from those of the first one in number or in what they observe
 std::shared_ptr<const BatchWorld> makeBatchWorld(LoadedWorld world, const BatchOptions& options,

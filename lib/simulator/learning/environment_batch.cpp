@@ -74,7 +74,7 @@ struct EnvironmentBatch::Impl {
       : options(std::move(the_options)),
         make_world(std::move(make)),
         make_others(std::move(others)),
-        agents(agentsOf(loaded.front(), options)),
+        agents(listAgents(loaded.front(), options)),
         episodes(options.environments),
         workers(options.threads) {
     std::vector<std::shared_ptr<const BatchWorld>> worlds;

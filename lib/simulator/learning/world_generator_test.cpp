@@ -29,7 +29,7 @@ TEST(WorldGenerator, MakesTheWorldsThatWorldFilesOfTheSameSeedContain) {
   std::set<std::uint64_t> different;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     LoadedWorld made = make(seed);
-    LoadedWorld written = loadWorld(worldSourceOf(toXml(made.world), "maze.xml"), {});
+    LoadedWorld written = loadWorld(completeWorldSource(toXml(made.world), "maze.xml"), {});
     const std::uint64_t digest = digestOf({std::move(made.world), std::move(made.fleet)});
     EXPECT_EQ(digest, digestOf({std::move(written.world), std::move(written.fleet)})) << seed;
     different.insert(digest);

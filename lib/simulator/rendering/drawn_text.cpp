@@ -46,7 +46,7 @@ cairo_font_face_t* DrawnText::faceFor(char32_t character) {
 
 std::vector<DrawnText::Run> DrawnText::runsOf(const std::string& text) {
   std::vector<Run> runs;
-  for (const char32_t character : charactersOf(text)) {
+  for (const char32_t character : decodeUtf8(text)) {
     cairo_font_face_t* const face = faceFor(character);
     if (runs.empty() || runs.back().face != face) runs.push_back({face, {}});
     appendUtf8(character < 0x20 ? U' ' : character, runs.back().text);
@@ -100,7 +100,7 @@ TextRuler::~TextRuler() { cairo_destroy(context_); }
 std::string TextRuler::shortened(const std::string& text, double capital_px, double width_px) {
   if (width(text, capital_px) <= width_px) return text;
   std::string beginning;
-  for (const char32_t character : charactersOf(text)) {
+  for (const char32_t character : decodeUtf8(text)) {
     std::string longer = beginning;
     appendUtf8(character, longer);
     if (width(longer + "…", capital_px) > width_px) break;

@@ -69,7 +69,7 @@ double tickLabelY(double text_px) { return kTick_px + 1.35 * text_px; }
 double axisLabelY(double text_px) { return kTick_px + 3.2 * text_px; }
 double headerY(double text_px) { return 2.1 * text_px; }
 
-FigureLayout layoutOf(const World& world, const DrawnRun& run, const FigurePage& page) {
+FigureLayout computeLayout(const World& world, const DrawnRun& run, const FigurePage& page) {
   TextRuler ruler;
   const int width_px = static_cast<int>(std::lround(page.width_mm / kMmPerInch * kPixelsPerInch));
   const double px_per_mm = width_px / page.width_mm;
@@ -82,7 +82,7 @@ FigureLayout layoutOf(const World& world, const DrawnRun& run, const FigurePage&
   const double edge_px = text_px;
   const double header_px = edge_px + title_px;  // middle of the title
   Margins margins{edge_px + kTick_px + kTickGap_px + width_of("y [m]"), 2 * edge_px, header_px + headerY(text_px), 0};
-  Legend legend(legendOf(run), text_px, width_px - margins.left - margins.right, width_of);
+  Legend legend(makeLegend(run), text_px, width_px - margins.left - margins.right, width_of);
   const double legend_below_px = axisLabelY(text_px) + 2.6 * text_px;
   margins.bottom = legend.lines() == 0
                        ? axisLabelY(text_px) + text_px + edge_px

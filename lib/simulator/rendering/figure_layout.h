@@ -24,7 +24,7 @@ struct FigureLayout {
 };
 
 /// @throws ConfigError when the text is too large for the page
-FigureLayout layoutOf(const World&, const DrawnRun&, const FigurePage&);
+FigureLayout computeLayout(const World&, const DrawnRun&, const FigurePage&);
 
 /// @name Axes, below and to the left of the plan
 ///@{

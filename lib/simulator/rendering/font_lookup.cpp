@@ -67,7 +67,7 @@ std::optional<FontFile> fontFor(char32_t character) {
   return known->second;
 }
 
-std::u32string charactersOf(const std::string& text) {
+std::u32string decodeUtf8(const std::string& text) {
   std::u32string characters;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t size = utf8SequenceLength(std::string_view(text).substr(i));

@@ -22,6 +22,6 @@ std::optional<FontFile> fontFor(char32_t character);
 inline constexpr double kCapitalPerEm = 0.73;
 
 /// Decodes UTF-8; yields U+FFFD for each byte that is not well-formed.
-std::u32string charactersOf(const std::string& text);
+std::u32string decodeUtf8(const std::string& text);
 
 }  // namespace robosim

@@ -20,7 +20,7 @@ LegendEntry LegendEntry::ofEnd() {
   return {"end", kEndMark_px, [](RunPainter& painter, const TPoint2D& at) { painter.paintEnd(at, kMarkColor); }};
 }
 
-std::vector<LegendEntry> legendOf(const DrawnRun& run) {
+std::vector<LegendEntry> makeLegend(const DrawnRun& run) {
   std::vector<LegendEntry> entries;
   const std::pair<SensorKind, const char*> sensors[] = {{SensorKind::sonar, "sonar"},
                                                         {SensorKind::laser, "laser"},

@@ -19,7 +19,7 @@ struct LegendEntry {
 };
 
 /// Entries for what a run contains: ranges of sensors, starts and ends of paths, events.
-std::vector<LegendEntry> legendOf(const DrawnRun&);
+std::vector<LegendEntry> makeLegend(const DrawnRun&);
 
 /// A legend, in as many lines as its width requires.
 class Legend {

@@ -8,7 +8,7 @@
 
 namespace robosim {
 
-std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& file) {
+std::optional<PictureFormat> recognizePictureFormat(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   if (ending == ".png") return PictureFormat::png;
@@ -18,7 +18,7 @@ std::optional<PictureFormat> pictureFormatOf(const std::filesystem::path& file) 
 }
 
 PictureFormat requirePictureFormat(const std::filesystem::path& file) {
-  if (const auto format = pictureFormatOf(file)) return *format;
+  if (const auto format = recognizePictureFormat(file)) return *format;
   throw ConfigError(file.string() +
                     ": a picture is a PNG, SVG or PDF file; give it a name that ends in .png, .svg or .pdf");
 }

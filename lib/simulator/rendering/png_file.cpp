@@ -15,7 +15,7 @@ namespace robosim {
 namespace {
 
 void checkName(const std::filesystem::path& file) {
-  if (pictureFormatOf(file) == PictureFormat::png) return;
+  if (recognizePictureFormat(file) == PictureFormat::png) return;
   throw ConfigError(file.string() + ": a picture is a PNG file; give it a name that ends in .png");
 }
 

@@ -35,13 +35,13 @@ void paintAxes(Figure& figure, const FigureLayout& layout, const Bounds2D& area)
 }  // namespace
 
 GroundView figureView(const World& world, const DrawnRun& run, const FigurePage& page) {
-  return layoutOf(world, run, page).view;
+  return computeLayout(world, run, page).view;
 }
 
 std::string runFigure(PictureFormat format, const World& world, const Fleet& fleet, const DrawnRun& whole,
                       const FigurePage& page) {
   const DrawnRun run = reduced(world, whole, figureView(world, whole, page).pixelsPerMetre());
-  const FigureLayout layout = layoutOf(world, run, page);
+  const FigureLayout layout = computeLayout(world, run, page);
   const std::string& title = run.title.empty() ? world.name : run.title;
   Figure figure(layout.view, kWhite, {.format = format, .title = title, .png_scale = 2, .width_mm = page.width_mm});
   RunPainter painter(figure, world, fleet, run,

@@ -83,7 +83,7 @@ std::vector<std::size_t> FreeSpace::largestRegion() const {
 
 void FreeSpace::blockUnknown(const World& world) {
   for (const auto& map : world.maps) {
-    for (const auto& solid : unknownOf(map)) block(solid.outline, 0);
+    for (const auto& solid : unknownSolids(map)) block(solid.outline, 0);
   }
 }
 

@@ -124,7 +124,7 @@ std::vector<XmlElement> sensorsOf(const XmlElement& type) {
   return all;
 }
 
-std::string wholeTextOf(const RobotTypeFile& type) {
+std::string resolveIncludes(const RobotTypeFile& type) {
   if (type.text) return *type.text;
   std::string text = readXmlText(type.file);
   if (text.find("<include") == std::string::npos) return text;

@@ -25,7 +25,7 @@ std::vector<XmlElement> sensorsOf(const XmlElement& type);
 /// The text of a type without <include>, which any machine can read without access to files; the file's own text if it
 /// includes nothing.
 /// @throws ConfigError as readRobotType(), and for faults in a type with included files
-std::string wholeTextOf(const RobotTypeFile&);
+std::string resolveIncludes(const RobotTypeFile&);
 /// The files that a type includes; empty for one that cannot be read.
 std::vector<std::filesystem::path> filesIncludedBy(const RobotTypeFile&);
 ///@}

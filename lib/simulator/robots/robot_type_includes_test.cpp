@@ -73,14 +73,14 @@ TEST_F(RobotTypeInclude, ReplacesSettingsByItsOwnAttributes) {
 TEST_F(RobotTypeInclude, BecomesPartOfTheText) {
   write("sensors/laser.xml", "<laser beams='3'/>");
   const RobotTypeFile type = typeWith("<include file='sensors/laser.xml' z_m='0.3'/>");
-  const RobotTypeFile received{"elsewhere/r.xml", wholeTextOf(type)};
+  const RobotTypeFile received{"elsewhere/r.xml", resolveIncludes(type)};
   EXPECT_EQ(received.text->find("include"), std::string::npos);
   EXPECT_EQ(modelFrom(received).sensors_digest, modelFrom(type).sensors_digest);
   EXPECT_EQ(filesIncludedBy(type), (std::vector<std::filesystem::path>{folder_.path() / "sensors/laser.xml"}));
   const RobotTypeFile without = typeWith("<odometry/>");
   std::ostringstream verbatim;
   verbatim << std::ifstream(without.file).rdbuf();
-  EXPECT_EQ(wholeTextOf(without), verbatim.str());
+  EXPECT_EQ(resolveIncludes(without), verbatim.str());
 }
 
 TEST_F(RobotTypeInclude, ReportsTheLineOfTheIncludedFile) {
@@ -90,7 +90,7 @@ TEST_F(RobotTypeInclude, ReportsTheLineOfTheIncludedFile) {
   ASSERT_EQ(faultsOf(type).size(), 1u);
   EXPECT_TRUE(faultsOf(type)[0].starts_with(fault)) << faultsOf(type)[0];
   try {
-    wholeTextOf(type);
+    resolveIncludes(type);
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_TRUE(error.errors().at(0).starts_with(fault)) << error.what();

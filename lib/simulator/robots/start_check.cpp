@@ -103,7 +103,7 @@ std::string lineText(const World& world, const SourceLine& line, const SourceLin
 
 /// The disc shrunk by the map's seam, so that a disc that only touches a wall does not overlap it.
 Circle withoutSeam(const Circle& disc, const WorldMap& map) {
-  return {disc.center, disc.radius_m - 2 * seamOf(map.plan, map.world_from_map)};
+  return {disc.center, disc.radius_m - 2 * computeSeam(map.plan, map.world_from_map)};
 }
 
 }  // namespace

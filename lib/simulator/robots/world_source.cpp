@@ -39,7 +39,7 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
   const auto keep_type_of = [&](const RobotPlacement& robot) {
     const auto type = known.find(robot.model);
     if (type == known.end() || source.robot_types.count(robot.model)) return;
-    source.robot_types[robot.model] = {type->second.file, wholeTextOf(type->second)};
+    source.robot_types[robot.model] = {type->second.file, resolveIncludes(type->second)};
   };
   for (const auto& robot : world.robots) keep_type_of(robot);
   for (const auto& scatter : world.scatters) {
@@ -55,13 +55,13 @@ WorldSource readWorldSource(const std::filesystem::path& file) {
   return completed(readWorldText(file, disk), file, disk);
 }
 
-WorldSource worldSourceOf(std::string text, const std::filesystem::path& file) {
+WorldSource completeWorldSource(std::string text, const std::filesystem::path& file) {
   return completed(std::move(text), file, cachingFileProvider(filesOnDisk(file)));
 }
 
 LoadedWorld loadWorld(const WorldSource& source, const ControllerCheck& check_controller) {
   ErrorList errors;
-  World world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
+  World world = parseWorld(source.text, source.file, makeProvider(source.file, source.files), errors);
   LoadedWorld loaded = placedWorld(std::move(world), source.file, source.robot_types, check_controller,
                                    source.seed.value_or(kDefaultSeed), errors);
   errors.throwIfAny();

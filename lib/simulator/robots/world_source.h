@@ -32,7 +32,7 @@ struct WorldSource {
 WorldSource readWorldSource(const std::filesystem::path& file);
 /// Completes the text of a world file by the files that it refers to, as if it were in `file`, which need not exist.
 /// @throws ConfigError as readWorldSource()
-WorldSource worldSourceOf(std::string text, const std::filesystem::path& file);
+WorldSource completeWorldSource(std::string text, const std::filesystem::path& file);
 
 /// Equivalent to loadWorld() of a file.
 LoadedWorld loadWorld(const WorldSource&, const ControllerCheck& check_controller);

@@ -22,7 +22,7 @@ class WorldSourceWithMaps : public testing::Test {
 TEST_F(WorldSourceWithMaps, OfATextHasTheFilesThatItsFileWouldHave) {
   const std::string file = ROBOSIM_SOURCE_DIR "/worlds/lab_map.xml";
   const WorldSource of_file = readWorldSource(file);
-  const WorldSource of_text = worldSourceOf(of_file.text, ROBOSIM_SOURCE_DIR "/worlds/not_written.xml");
+  const WorldSource of_text = completeWorldSource(of_file.text, ROBOSIM_SOURCE_DIR "/worlds/not_written.xml");
   EXPECT_EQ(of_text.files, of_file.files);
   EXPECT_FALSE(of_text.files.empty());
   EXPECT_EQ(versionOf(of_text), versionOf(of_file));
@@ -30,7 +30,7 @@ TEST_F(WorldSourceWithMaps, OfATextHasTheFilesThatItsFileWouldHave) {
 
 TEST_F(WorldSourceWithMaps, OfATextReportsMissingMapsByFileAndLine) {
   try {
-    worldSourceOf(
+    completeWorldSource(
         "<world><surface><size><xmin>0</xmin><xmax>1</xmax><ymin>0</ymin><ymax>1</ymax></size>\n"
         "<map file='none.gridmap'/></surface></world>",
         "folder/w.xml");

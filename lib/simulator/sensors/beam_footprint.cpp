@@ -31,7 +31,7 @@ double BeamFootprint::power(const Ray& ray, double distance_m, BodyId body) cons
   return now_.reflectivityOf(body) * cosine * reach * reach;
 }
 
-Return BeamFootprint::returnOf(const BeamHits& hits, std::size_t i, double distortion) const {
+Return BeamFootprint::computeReturn(const BeamHits& hits, std::size_t i, double distortion) const {
   const double own_m = hits.distance_m[i];
   if (errors_.divergence_rad > 0) {
     // The side on which the adjacent beam hits the more distant surface from this one.

@@ -54,7 +54,7 @@ class BeamFootprint {
   BeamFootprint(const Snapshot& now, const LaserErrors& errors) : now_(now), errors_(errors) {}
 
   /// @param distortion random error of a mixed pixel's shares, in standard deviations
-  Return returnOf(const BeamHits& hits, std::size_t i, double distortion) const;
+  Return computeReturn(const BeamHits& hits, std::size_t i, double distortion) const;
 
  private:
   double power(const Ray& ray, double distance_m, BodyId body) const;

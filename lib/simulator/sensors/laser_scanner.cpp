@@ -128,7 +128,7 @@ class LaserScanner : public Sensor {
       Return echo{hits.distance_m[i]};
       if (is_lit_) {
         if (errors_.divergence_rad > 0) draw.distortion = gaussian(random.words[3][i], 1);
-        echo = footprint.returnOf(hits, i, draw.distortion);
+        echo = footprint.computeReturn(hits, i, draw.distortion);
       }
       if (!(echo.range_m < info_.range_max_m)) {
         read_m[i] = kNoHit_m;

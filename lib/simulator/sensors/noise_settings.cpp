@@ -54,7 +54,7 @@ std::string SensorErrorSettings::text() const {
   return text;
 }
 
-SensorErrorSettings errorSettingsOf(const XmlElement& sensor, const Mount& mount) {
+SensorErrorSettings readErrorSettings(const XmlElement& sensor, const Mount& mount) {
   const std::string kind = kindOfSensor(sensor);
   const SensorType* type = sensorType(kind);
   if (!type) return {};

@@ -26,6 +26,6 @@ struct SensorErrorSettings {
 
 /// The settings of <noise>, and those of measurement times (sweep, latency, rate and phase of a laser, firing of
 /// sonars). Empty for a sensor without errors whose element gives no times, and for a sensor of an unknown kind.
-SensorErrorSettings errorSettingsOf(const XmlElement& sensor, const Mount& mount);
+SensorErrorSettings readErrorSettings(const XmlElement& sensor, const Mount& mount);
 
 }  // namespace robosim

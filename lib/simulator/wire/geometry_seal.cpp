@@ -6,7 +6,7 @@
 namespace robosim {
 namespace {
 
-std::uint64_t checksumOf(const std::string& bytes) {
+std::uint64_t computeChecksum(const std::string& bytes) {
   Digest digest;
   digest.addBytes(bytes.data(), bytes.size());
   return digest.value();
@@ -24,11 +24,11 @@ void checkGeometryProtocol(std::uint32_t version) {
 
 void seal(const google::protobuf::Message& message, internal::Sealed& out) {
   message.SerializeToString(out.mutable_payload());
-  out.set_checksum(checksumOf(out.payload()));
+  out.set_checksum(computeChecksum(out.payload()));
 }
 
 void unseal(const internal::Sealed& in, google::protobuf::Message& message) {
-  if (checksumOf(in.payload()) != in.checksum()) {
+  if (computeChecksum(in.payload()) != in.checksum()) {
     throw WireError("a message whose checksum does not match: it was corrupted in transit; connect again",
                     v1::ERROR_REASON_CORRUPTED_MESSAGE);
   }

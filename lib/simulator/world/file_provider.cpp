@@ -46,7 +46,7 @@ FileProvider cachingFileProvider(FileProvider files) {
           }};
 }
 
-FileProvider providerOf(const std::filesystem::path& world_file, const FileTexts& files) {
+FileProvider makeProvider(const std::filesystem::path& world_file, const FileTexts& files) {
   const std::filesystem::path folder = world_file.parent_path();
   return {folder, [folder, &files](const std::string& name) {
             const auto found = files.find(name);

@@ -38,6 +38,6 @@ constexpr const char* kIncludedExtension = ".xml";
 /// below it, also after symbolic links are resolved.
 FileProvider filesOnDisk(const std::filesystem::path& world_file);
 /// Provides the given texts only. `files` must outlive the result.
-FileProvider providerOf(const std::filesystem::path& world_file, const FileTexts& files);
+FileProvider makeProvider(const std::filesystem::path& world_file, const FileTexts& files);
 
 }  // namespace robosim

@@ -71,7 +71,7 @@ std::vector<CellRectangle> CellMerger::finish() {
   return std::move(done_);
 }
 
-FloorPlan floorPlanOf(const OccupancyGrid& grid, bool unknown_is_occupied) {
+FloorPlan toFloorPlan(const OccupancyGrid& grid, bool unknown_is_occupied) {
   FloorPlan plan;
   plan.columns = grid.columns;
   plan.rows = grid.rows;
@@ -111,7 +111,7 @@ Bounds2D boundsOf(const FloorPlan& plan, const TPose2D& world_from_map) {
   return hull.bounds();
 }
 
-double seamOf(const FloorPlan& plan, const TPose2D& world_from_map) {
+double computeSeam(const FloorPlan& plan, const TPose2D& world_from_map) {
   const Bounds2D b = boundsOf(plan, world_from_map);
   const double far_m = std::max({std::abs(b.x_min), std::abs(b.x_max), std::abs(b.y_min), std::abs(b.y_max)});
   return 1e-9 + 4 * std::numeric_limits<double>::epsilon() * far_m;
@@ -119,7 +119,7 @@ double seamOf(const FloorPlan& plan, const TPose2D& world_from_map) {
 
 void addSolids(const FloorPlan& plan, const TPose2D& world_from_map, const HeightSpan& heights,
                std::vector<Solid>& solids) {
-  const double seam_m = seamOf(plan, world_from_map);
+  const double seam_m = computeSeam(plan, world_from_map);
   solids.reserve(solids.size() + plan.occupied.size() + plan.boxes.size());
   const PlanarTransform grid(portable::compose(world_from_map, plan.map_from_grid), 0);
   const TPoint2D along(grid.cos(), grid.sin());

@@ -57,14 +57,14 @@ class CellMerger {
 };
 
 /// @param unknown_is_occupied whether unknown cells become occupied; otherwise they become free
-FloorPlan floorPlanOf(const OccupancyGrid&, bool unknown_is_occupied);
+FloorPlan toFloorPlan(const OccupancyGrid&, bool unknown_is_occupied);
 
 /// Bounding rectangle in the world of the whole map including its free cells; a point for an empty map.
 Bounds2D boundsOf(const FloorPlan&, const mrpt::math::TPose2D& world_from_map);
 
 /// Distance [m], about a nanometre, by which the solids of cells and boxes extend over their edges, so that no ray
 /// passes between two touching solids because of rounding.
-double seamOf(const FloorPlan&, const mrpt::math::TPose2D& world_from_map);
+double computeSeam(const FloorPlan&, const mrpt::math::TPose2D& world_from_map);
 
 /// Appends the obstacles as solids: a box for every rectangle of cells and for every box.
 void addSolids(const FloorPlan&, const mrpt::math::TPose2D& world_from_map, const HeightSpan& heights,

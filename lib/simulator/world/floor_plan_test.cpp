@@ -39,7 +39,7 @@ std::vector<Solid> solidsOf(const FloorPlan& plan, const TPose2D& world_from_map
 }
 
 TEST(FloorPlan, MergesARoomsWallsIntoFourBoxes) {
-  const FloorPlan plan = floorPlanOf(gridOf({"######",  //
+  const FloorPlan plan = toFloorPlan(gridOf({"######",  //
                                              "#....#",  //
                                              "#....#",  //
                                              "######"}),
@@ -49,7 +49,7 @@ TEST(FloorPlan, MergesARoomsWallsIntoFourBoxes) {
 }
 
 TEST(FloorPlan, DoesNotMergeCellsThatTouchAtACorner) {
-  const FloorPlan plan = floorPlanOf(gridOf({"#.#",  //
+  const FloorPlan plan = toFloorPlan(gridOf({"#.#",  //
                                              ".#.",  //
                                              "#.#"}),
                                      false);
@@ -58,16 +58,16 @@ TEST(FloorPlan, DoesNotMergeCellsThatTouchAtACorner) {
 
 TEST(FloorPlan, TreatsUnknownAsFreeByDefault) {
   const OccupancyGrid grid = gridOf({"?#?"});
-  EXPECT_EQ(floorPlanOf(grid, false).occupiedCells(), 1u);
-  EXPECT_EQ(floorPlanOf(grid, true).occupiedCells(), 3u);
+  EXPECT_EQ(toFloorPlan(grid, false).occupiedCells(), 1u);
+  EXPECT_EQ(toFloorPlan(grid, true).occupiedCells(), 3u);
 }
 
 TEST(FloorPlan, KeepsUnknownCellsUnlessTheyCountAsOccupied) {
   OccupancyGrid grid{.columns = 3, .rows = 2, .cell_m = 1, .map_from_grid = {}, .cells = {}};
   grid.cells.assign(6, Occupancy::unknown);
   grid.cells[0] = Occupancy::free;
-  EXPECT_EQ(floorPlanOf(grid, false).unknown, (std::vector<CellRectangle>{{1, 0, 2, 1}, {0, 1, 3, 1}}));
-  EXPECT_TRUE(floorPlanOf(grid, true).unknown.empty());
+  EXPECT_EQ(toFloorPlan(grid, false).unknown, (std::vector<CellRectangle>{{1, 0, 2, 1}, {0, 1, 3, 1}}));
+  EXPECT_TRUE(toFloorPlan(grid, true).unknown.empty());
 }
 
 TEST(FloorPlan, CoversExactlyTheOccupiedCellsOnce) {
@@ -76,7 +76,7 @@ TEST(FloorPlan, CoversExactlyTheOccupiedCellsOnce) {
     const OccupancyGrid grid = randomGrid(rng, 1 + rng.below(30), 1 + rng.below(30), 1);
     const bool unknown_too = rng.below(2) == 1;
     std::vector<int> covered(grid.cells.size(), 0);
-    for (const auto& box : floorPlanOf(grid, unknown_too).occupied) {
+    for (const auto& box : toFloorPlan(grid, unknown_too).occupied) {
       for (auto row = box.row; row < box.row + box.rows; ++row) {
         for (auto column = box.column; column < box.column + box.columns; ++column) {
           ++covered.at(std::size_t{row} * grid.columns + column);
@@ -94,7 +94,7 @@ TEST(FloorPlan, IsPlacedByTheGridsCorner) {
   OccupancyGrid grid = gridOf({".#"});
   grid.map_from_grid = {1, 2, M_PI / 2};
   // The map is rotated by another quarter and placed at (10, 0): its x axis is the world's y axis.
-  const auto solids = solidsOf(floorPlanOf(grid, false), {10, 0, M_PI / 2});
+  const auto solids = solidsOf(toFloorPlan(grid, false), {10, 0, M_PI / 2});
   ASSERT_EQ(solids.size(), 1u);
   // In the grid the cell is [0.5, 1] × [0, 0.5]; in the map [0.5, 1] × [2.5, 3]; in the world [7, 7.5] × [0.5, 1].
   const Bounds2D b = boundsOf(solids[0].outline);
@@ -102,7 +102,7 @@ TEST(FloorPlan, IsPlacedByTheGridsCorner) {
   EXPECT_NEAR(b.x_max, 7.5, 1e-8);
   EXPECT_NEAR(b.y_min, 0.5, 1e-8);
   EXPECT_NEAR(b.y_max, 1, 1e-8);
-  const Bounds2D all = boundsOf(floorPlanOf(grid, false), {10, 0, M_PI / 2});
+  const Bounds2D all = boundsOf(toFloorPlan(grid, false), {10, 0, M_PI / 2});
   EXPECT_NEAR(all.x_min, 7, 1e-12);
   EXPECT_NEAR(all.x_max, 8, 1e-12);
 }
@@ -126,7 +126,7 @@ struct Case {
     }
   }
 
-  FloorPlan plan() const { return floorPlanOf(grid, false); }
+  FloorPlan plan() const { return toFloorPlan(grid, false); }
   Bounds2D area() const { return boundsOf(plan(), world_from_map); }
   TPose2D worldFromGrid() const { return world_from_map + grid.map_from_grid; }
   Scene scene() const { return {solidsOf(plan(), world_from_map), 0, area()}; }
@@ -273,7 +273,7 @@ TEST(FloorPlanBruteForce, ADiscStopsAtTheCells) {
 }
 
 TEST(FloorPlan, DoesNotBlockRaysAboveItsWalls) {
-  const FloorPlan plan = floorPlanOf(gridOf({"#"}), false);
+  const FloorPlan plan = toFloorPlan(gridOf({"#"}), false);
   const Scene scene(solidsOf(plan, {}, {0, 0.8}), 0, {-1, 1, -1, 1});
   EXPECT_TRUE(scene.castRay(Ray::towards({-1, 0.25, 0.8}, 0), 5));
   EXPECT_FALSE(scene.castRay(Ray::towards({-1, 0.25, 0.81}, 0), 5));
@@ -284,7 +284,7 @@ TEST(FloorPlan, NeighbouringCellsOverlapAnywhere) {
   for (int i = 0; i < 2000; ++i) {
     OccupancyGrid grid = gridOf({"#", "#"});
     grid.map_from_grid = {rng.uniform(-1e7, 1e7), rng.uniform(-1e7, 1e7), rng.uniform(-M_PI, M_PI)};
-    FloorPlan plan = floorPlanOf(grid, false);
+    FloorPlan plan = toFloorPlan(grid, false);
     plan.occupied = {{0, 0, 1, 1}, {0, 1, 1, 1}};
     const auto solids = solidsOf(plan, {});
     EXPECT_TRUE(overlap(solids[0], solids[1])) << grid.map_from_grid;
@@ -295,7 +295,7 @@ TEST(FloorPlan, HasNoGapsFarFromTheOrigin) {
   // At coordinates used in surveying, a nanometre is below the resolution of doubles.
   OccupancyGrid grid = gridOf({"#", "#", "#", "#"});
   grid.map_from_grid = {4'451'000.3, 5'438'000.7, 0.3};
-  FloorPlan plan = floorPlanOf(grid, false);
+  FloorPlan plan = toFloorPlan(grid, false);
   plan.occupied = {{0, 0, 1, 1}, {0, 1, 1, 1}, {0, 2, 1, 1}, {0, 3, 1, 1}};  // all seams
   const Scene scene(solidsOf(plan, {}), 0, boundsOf(plan, {}));
   for (int seam = 1; seam <= 3; ++seam) {

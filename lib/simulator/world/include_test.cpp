@@ -28,7 +28,7 @@ std::string pillarNamed(const std::string& name) {
 World read(const std::string& content, const FileTexts& files, Lines& faults) {
   ErrorList errors;
   const std::string file = "worlds/w.xml";
-  World world = parseWorld(worldWith(content), file, providerOf(file, files), errors);
+  World world = parseWorld(worldWith(content), file, makeProvider(file, files), errors);
   faults = errors.errors();
   return world;
 }

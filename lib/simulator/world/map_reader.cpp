@@ -15,7 +15,7 @@ MapReaders& mapReaders() {
 
 }  // namespace
 
-MapFormat mapFormatOf(const std::filesystem::path& file) {
+MapFormat recognizeMapFormat(const std::filesystem::path& file) {
   std::string name = file.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   const std::pair<const char*, MapFormat> formats[] = {
@@ -31,7 +31,7 @@ MapFormat mapFormatOf(const std::filesystem::path& file) {
 
 bool isMapFile(const std::filesystem::path& file) {
   try {
-    mapFormatOf(file);
+    recognizeMapFormat(file);
     return true;
   } catch (const ConfigError&) {
     return false;

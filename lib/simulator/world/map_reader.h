@@ -17,8 +17,8 @@ enum class MapFormat {
 
 /// Format of a map file by its name (.gridmap, .gridmap.gz, .yaml, .yml, .png, .pgm, .ppm, .pbm, .map).
 /// @throws ConfigError for any other name
-MapFormat mapFormatOf(const std::filesystem::path& file);
-/// Whether mapFormatOf() recognises the file's name.
+MapFormat recognizeMapFormat(const std::filesystem::path& file);
+/// Whether recognizeMapFormat() recognises the file's name.
 bool isMapFile(const std::filesystem::path& file);
 
 /// Options of a world file for reading a map. Each applies to the given formats only.

@@ -8,7 +8,7 @@ namespace robosim {
 namespace {
 
 TEST(MapReader, RefusesMapsUntilReadersAreSet) {
-  const FileProvider files = providerOf("maps/world.xml", {{"lab.pgm", "P1 1 1 0"}});
+  const FileProvider files = makeProvider("maps/world.xml", {{"lab.pgm", "P1 1 1 0"}});
   try {
     readMap("lab.pgm", files, {});
     FAIL();
@@ -33,7 +33,7 @@ TEST(MapReader, CallsTheReadersThatAreSet) {
                      }});
   MapReading reading;
   reading.pixel_m = 0.5;
-  EXPECT_EQ(readMap("a.pgm", providerOf("w.xml", {}), reading).cell_m, 5.5);
+  EXPECT_EQ(readMap("a.pgm", makeProvider("w.xml", {}), reading).cell_m, 5.5);
   EXPECT_EQ(filesOfMap("a").size(), 2u);
   setMapReaders({});
 }

@@ -165,7 +165,7 @@ std::optional<MapExtent> extentOfMap(const World& world) {
   return std::nullopt;
 }
 
-OccupancyGrid rasterOf(const World& world, const MapExtent& extent) {
+OccupancyGrid rasterize(const World& world, const MapExtent& extent) {
   std::vector<Solid> solids = stationarySolids(world);
   const HeightSpan heights{extent.heights.z_min_m + kTouch_m, extent.heights.z_max_m - kTouch_m};
   std::erase_if(solids, [&](const Solid& solid) { return !solid.heights.overlaps(heights); });
@@ -180,7 +180,7 @@ OccupancyGrid rasterOf(const World& world, const MapExtent& extent) {
   const mrpt::math::TPose2D middle{(surface.x_min + surface.x_max) / 2, (surface.y_min + surface.y_max) / 2, 0};
   raster.fill(OrientedBox::from(middle, surface.x_max - surface.x_min, surface.y_max - surface.y_min), Occupancy::free);
   for (const auto& map : world.maps) {
-    for (const auto& solid : unknownOf(map)) raster.fill(solid.outline, Occupancy::unknown);
+    for (const auto& solid : unknownSolids(map)) raster.fill(solid.outline, Occupancy::unknown);
   }
   for (const auto& solid : solids) raster.fill(solid.outline, Occupancy::occupied);
   return raster.finish();

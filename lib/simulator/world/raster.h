@@ -30,6 +30,6 @@ std::optional<MapExtent> extentOfMap(const World&);
 /// the heights overlaps it, however little. Other cells on the surface are free, except those that are unknown in a
 /// map. All remaining cells are unknown.
 /// @throws ConfigError for more than kMaxMapCells cells
-OccupancyGrid rasterOf(const World&, const MapExtent&);
+OccupancyGrid rasterize(const World&, const MapExtent&);
 
 }  // namespace robosim

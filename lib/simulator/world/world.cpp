@@ -20,7 +20,7 @@ std::string World::fileOf(const SourceLine& line, const std::string& world_file)
   return (std::filesystem::path(world_file).parent_path() / included_name).string();
 }
 
-std::vector<Solid> unknownOf(const WorldMap& map) {
+std::vector<Solid> unknownSolids(const WorldMap& map) {
   FloorPlan plan = map.plan;
   plan.boxes.clear();
   plan.occupied = std::move(plan.unknown);

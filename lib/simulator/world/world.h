@@ -114,7 +114,7 @@ struct World {
 };
 
 /// Unknown cells of a map as boxes of the map's height. They are no obstacles.
-std::vector<Solid> unknownOf(const WorldMap&);
+std::vector<Solid> unknownSolids(const WorldMap&);
 
 /// All stationary solids: first the objects, in their order, then those of each map.
 std::vector<Solid> stationarySolids(const World&);

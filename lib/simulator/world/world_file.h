@@ -19,8 +19,9 @@ World parseWorld(std::string text, const std::string& file, const FileProvider& 
 /// Parses a world that refers to no other file.
 World parseWorld(std::string text, const std::string& file, ErrorList& errors);
 
-/// A world or a map is read by the ending of its name (mapFormatOf()). Refuses a file whose first bytes are of another
-/// kind than its name says: a map that does not end as its format does, and any other kind that ends like a map.
+/// A world or a map is read by the ending of its name (recognizeMapFormat()). Refuses a file whose first bytes are of
+/// another kind than its name says: a map that does not end as its format does, and any other kind that ends like a
+/// map.
 /// @throws ConfigError with the ending that it must have
 void requireNameOfKind(const std::filesystem::path& file);
 

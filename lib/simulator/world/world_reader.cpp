@@ -124,7 +124,7 @@ class WorldReader {
     map.height_m = reader.length("height", Bounds::positive(), world_.unit_m, map.height_m);
     if (const auto color = readColor(reader)) map.color = *color;
     try {
-      if (errors_.count() == faults) readMapSettings(reader, mapFormatOf(map.file), map.reading);
+      if (errors_.count() == faults) readMapSettings(reader, recognizeMapFormat(map.file), map.reading);
       reader.finish();
       if (errors_.count() == faults) map.plan = readMap(map.file, files_, map.reading);
       for (const auto& start : map.plan.starts) placements_.addStart(portable::compose(map.world_from_map, start));
@@ -210,7 +210,7 @@ void clearLines(XmlElement& element) {
 /// A generated world that consists of one map.
 XmlElement worldAround(const std::filesystem::path& map_file, const FileProvider& files) {
   const std::string name = map_file.filename().string();
-  const MapFormat format = mapFormatOf(map_file);
+  const MapFormat format = recognizeMapFormat(map_file);
   if (format == MapFormat::picture) {
     throw ConfigError(
         map_file.string() +
@@ -252,7 +252,7 @@ void requireNameOfKind(const std::filesystem::path& file) {
   const FileKind kind = kindOfFile(file);
   for (const auto& one : endings) {
     if (kind != one.kind) continue;
-    const std::optional<MapFormat> named = isMapFile(file) ? std::optional(mapFormatOf(file)) : std::nullopt;
+    const std::optional<MapFormat> named = isMapFile(file) ? std::optional(recognizeMapFormat(file)) : std::nullopt;
     if (named == one.format) return;
     const std::string what = kindText(kind);
     throw ConfigError(file.string() + ": is " + what.substr(0, what.find(": ")) + ", so that its name must end in " +
@@ -289,7 +289,7 @@ World parseWorld(std::string text, const std::string& file, const FileProvider& 
 
 World parseWorld(std::string text, const std::string& file, ErrorList& errors) {
   const FileTexts none;
-  return parseWorld(std::move(text), file, providerOf(file, none), errors);
+  return parseWorld(std::move(text), file, makeProvider(file, none), errors);
 }
 
 }  // namespace robosim

@@ -28,7 +28,7 @@ TEST(UnknownOf, ContainsNeitherWallsNorOccupiedCells) {
   map.plan.occupied = {{0, 0, 1, 1}};
   map.plan.unknown = {{1, 1, 1, 1}};
   map.plan.boxes = {{{5, 5, 0}, 2, 1}};
-  const auto unknown = unknownOf(map);
+  const auto unknown = unknownSolids(map);
   ASSERT_EQ(unknown.size(), 1u);
   EXPECT_NEAR(std::get<OrientedBox>(unknown[0].outline).center.x, 1.5, 1e-12);
   World world;

@@ -83,7 +83,7 @@ class WorldWriter {
     writePose(map.world_from_map, world_.unit_m, element);
     addLength(element, "height", map.height_m);
     element.add("color", colorText(map.color));
-    const MapFormat format = mapFormatOf(map.file);
+    const MapFormat format = recognizeMapFormat(map.file);
     if (format == MapFormat::activmedia) return;
     element.add("unknown", map.reading.unknown_is_occupied ? "occupied" : "free");
     if (map.reading.is_of_ros1) element.add("map_server", "ros1");

@@ -45,7 +45,7 @@ bool RunArguments::timeIsUp(const SimTime& now) const {
 
 RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note)
     : arguments_(arguments) {
-  const auto inputs = inputFilesOf(arguments.world, environment.world());
+  const auto inputs = listInputFiles(arguments.world, environment.world());
   refuseOverwriting(inputs, {arguments.record, arguments.picture});
   if (!arguments.record.empty()) {
     std::vector<RobotInfo> robots;

@@ -49,14 +49,14 @@ struct RunRecordingTest : TestFolder {
       const bool was_note = is_note;
       is_note = observation->sensorLabel.empty();
       const auto step = static_cast<std::uint64_t>(
-          std::llround(mrpt::system::timeDifference(timestampOf(SimTime{0, 0.1}), observation->timestamp) / 0.1));
+          std::llround(mrpt::system::timeDifference(toTimestamp(SimTime{0, 0.1}), observation->timestamp) / 0.1));
       if (is_note || was_note || steps.back() != step) steps.push_back(step);
     }
     EXPECT_FALSE(reader.readError());
     return steps;
   }
 
-  const WorldSource source = worldSourceOf(kWorld, "w.xml");
+  const WorldSource source = completeWorldSource(kWorld, "w.xml");
   const RunOptions options{.environment = {.period_s = 0.1}, .controller = "still"};
   LocalRun run{loadWorldToRun(source, "still"), options};
 };

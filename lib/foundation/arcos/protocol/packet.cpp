@@ -13,7 +13,7 @@ std::uint8_t byteAt(std::string_view bytes, std::size_t i) { return static_cast<
 
 }  // namespace
 
-std::uint16_t checksumOf(std::string_view id_and_payload) {
+std::uint16_t computeChecksum(std::string_view id_and_payload) {
   unsigned sum = 0;
   std::size_t i = 0;
   for (; i + 1 < id_and_payload.size(); i += 2) {
@@ -32,7 +32,7 @@ std::string encode(std::uint8_t id, std::string_view payload) {
   bytes.push_back(static_cast<char>(payload.size() + kAround));
   bytes.push_back(static_cast<char>(id));
   bytes += payload;
-  const std::uint16_t checksum = checksumOf(std::string_view(bytes).substr(kLengthEnd));
+  const std::uint16_t checksum = computeChecksum(std::string_view(bytes).substr(kLengthEnd));
   bytes.push_back(static_cast<char>(checksum >> 8));
   bytes.push_back(static_cast<char>(checksum & 0xFF));
   return bytes;
@@ -65,7 +65,7 @@ std::optional<Packet> PacketReader::next() {
     if (rest.size() < kLengthEnd + length) break;
     const std::string_view checked = rest.substr(kLengthEnd, length - 2);
     const unsigned sent = byteAt(rest, length + 1) * 256u + byteAt(rest, length + 2);
-    if (checksumOf(checked) != sent) {
+    if (computeChecksum(checked) != sent) {
       reject(1);  // a true header may lie within
       continue;
     }

@@ -22,7 +22,7 @@ struct Packet {
 constexpr std::size_t kPayloadMax = 252;
 
 /// Sum of the big-endian byte pairs modulo 2^16; a last single byte is combined by XOR.
-std::uint16_t checksumOf(std::string_view id_and_payload);
+std::uint16_t computeChecksum(std::string_view id_and_payload);
 
 /// The packet's bytes: FA FB, length, id, payload, checksum.
 /// @throws std::invalid_argument for a payload of more than kPayloadMax bytes

@@ -101,7 +101,7 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers, const Order& orde
 }
 
 template <typename Order>
-void CenterIndex::buildOf(const ParallelExecutor& workers, const Order& order) {
+void CenterIndex::buildFrom(const ParallelExecutor& workers, const Order& order) {
   chooseCells(workers, order);
   if (workers.threads() > 1 && ParallelExecutor::piecesOf(order.size()) > 1) return sortInParallel(workers, order);
   begin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
@@ -172,9 +172,9 @@ void CenterIndex::sortInParallel(const ParallelExecutor& workers, const Order& o
   });
 }
 
-void CenterIndex::build(const ParallelExecutor& workers) { buildOf(workers, EveryItem{items_.size()}); }
+void CenterIndex::build(const ParallelExecutor& workers) { buildFrom(workers, EveryItem{items_.size()}); }
 void CenterIndex::build(const ParallelExecutor& workers, std::span<const std::uint32_t> solids) {
-  buildOf(workers, solids);
+  buildFrom(workers, solids);
 }
 
 }  // namespace robosim

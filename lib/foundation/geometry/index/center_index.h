@@ -86,7 +86,7 @@ class CenterIndex {
   template <typename Order>
   void chooseCells(const ParallelExecutor& workers, const Order& order);
   template <typename Order>
-  void buildOf(const ParallelExecutor& workers, const Order& order);
+  void buildFrom(const ParallelExecutor& workers, const Order& order);
   template <typename Order>
   void sortInParallel(const ParallelExecutor& workers, const Order& order);
 

@@ -287,8 +287,8 @@ TEST(MalformedMaps, RejectsUnknownFileNames) {
         Lines{std::string(name) +
               ": is not a map by its name; maps end in .gridmap, .yaml (of ROS), .png, .pgm, .ppm, .pbm or .map"});
   }
-  EXPECT_EQ(mapFormatOf("A.GridMap.GZ"), MapFormat::gridmap);
-  EXPECT_EQ(mapFormatOf("x/y.YML"), MapFormat::ros_yaml);
+  EXPECT_EQ(recognizeMapFormat("A.GridMap.GZ"), MapFormat::gridmap);
+  EXPECT_EQ(recognizeMapFormat("x/y.YML"), MapFormat::ros_yaml);
 }
 
 /// Flips bits, and removes, duplicates and inserts runs of bytes.

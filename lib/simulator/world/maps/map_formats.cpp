@@ -49,7 +49,7 @@ FloorPlan readMapFile(const std::string& name, const FileProvider& files, const 
                       std::to_string(kMaxMapBoxes) + " at most, so make it smaller, or its cells larger");
   };
   OccupancyGrid grid;
-  switch (mapFormatOf(name)) {
+  switch (recognizeMapFormat(name)) {
     case MapFormat::activmedia:
       return checked(readActivmediaMap(files.read(name), path));
     case MapFormat::gridmap:
@@ -65,15 +65,16 @@ FloorPlan readMapFile(const std::string& name, const FileProvider& files, const 
   const double far_m = std::max(grid.columns, grid.rows) * grid.cell_m;
   if (far_m > kMapReach_m)
     throw ConfigError(path + ": reaches over more than 10,000 km; its resolution cannot be right");
-  FloorPlan plan = floorPlanOf(grid, reading.unknown_is_occupied);
-  plan.warnings = warningsOf(grid, mapFormatOf(name));
+  FloorPlan plan = toFloorPlan(grid, reading.unknown_is_occupied);
+  plan.warnings = warningsOf(grid, recognizeMapFormat(name));
   return checked(std::move(plan));
 }
 
 std::vector<std::filesystem::path> filesOf(const std::filesystem::path& map) {
   std::vector<std::filesystem::path> files{map};
   std::error_code none;
-  if (!isMapFile(map) || mapFormatOf(map) != MapFormat::ros_yaml || !std::filesystem::is_regular_file(map, none)) {
+  if (!isMapFile(map) || recognizeMapFormat(map) != MapFormat::ros_yaml ||
+      !std::filesystem::is_regular_file(map, none)) {
     return files;
   }
   if (const auto picture = pictureOfRosMap(map); !picture.empty()) files.push_back(picture);

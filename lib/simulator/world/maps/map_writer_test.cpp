@@ -78,7 +78,7 @@ TEST(Raster, MarksEveryCellThatAWallOverlaps) {
   World world = emptyWorld({0, 1, 0, 0.75});
   add(world, cuboid(0.25, 0.25, 0, 0.25, 1, 0));                        // fills one cell, touches eight
   add(world, {OrientedBox{{0.75, 0.7}, {1, 0}, 0.05, 0.001}, {0, 1}});  // 2 mm thin, across a border
-  EXPECT_EQ(drawn(rasterOf(world, {0.25, {0, 1}})), "..##\n.#..\n....\n");
+  EXPECT_EQ(drawn(rasterize(world, {0.25, {0, 1}})), "..##\n.#..\n....\n");
 }
 
 TEST(Raster, ContainsOnlySolidsWithinTheHeights) {
@@ -86,15 +86,15 @@ TEST(Raster, ContainsOnlySolidsWithinTheHeights) {
   add(world, cuboid(0, 0, 0, 0.25, 0.3, 0));      // a step
   add(world, cuboid(0.25, 0, 0.3, 0.25, 2, 0));   // over it
   add(world, cuboid(0.5, 0, 1.5, 0.25, 0.2, 0));  // above the heights
-  EXPECT_EQ(drawn(rasterOf(world, {0.25, {0, 0.3}})), "#...\n");
-  EXPECT_EQ(drawn(rasterOf(world, {0.25, {0.3, 1.5}})), ".#..\n");
-  EXPECT_EQ(drawn(rasterOf(world, {0.25, {0, 3}})), "###.\n");
+  EXPECT_EQ(drawn(rasterize(world, {0.25, {0, 0.3}})), "#...\n");
+  EXPECT_EQ(drawn(rasterize(world, {0.25, {0.3, 1.5}})), ".#..\n");
+  EXPECT_EQ(drawn(rasterize(world, {0.25, {0, 3}})), "###.\n");
 }
 
 TEST(Raster, IsUnknownBeyondTheSurfaceExceptForSolids) {
   World world = emptyWorld({0, 0.5, 0, 0.5});
   add(world, cuboid(0.75, 0.75, 0, 0.25, 1, 0));
-  const OccupancyGrid grid = rasterOf(world, {0.25, {0, 1}});
+  const OccupancyGrid grid = rasterize(world, {0.25, {0, 1}});
   EXPECT_EQ(drawn(grid), "???#\n????\n..??\n..??\n");
   EXPECT_EQ(grid.map_from_grid, mrpt::math::TPose2D(0, 0, 0));
 }
@@ -107,7 +107,7 @@ TEST(Raster, AgreesWithALoopOverAllSolidsCellByCell) {
     const double cells_m[] = {0.25, 0.1, 0.37};
     const MapExtent extent{cells_m[rng.below(3)], {0.2, 0.2 + rng.uniform(0.1, 2)}};
     const auto solids = stationarySolids(world);
-    const OccupancyGrid grid = rasterOf(world, extent);
+    const OccupancyGrid grid = rasterize(world, extent);
     for (std::uint32_t row = 0; row < grid.rows; ++row) {
       for (std::uint32_t column = 0; column < grid.columns; ++column) {
         const auto expected = slowly(solids, world.bounds, extent.heights, grid.map_from_grid.x + column * grid.cell_m,
@@ -131,9 +131,9 @@ TEST(Raster, ReproducesTheCellsOfAMap) {
     grid.map_from_grid = {0.05 * (static_cast<double>(rng.below(100)) - 50), 0.05 * rng.below(100), 0};
     World world;
     world.maps.emplace_back();
-    world.maps[0].plan = floorPlanOf(grid, false);
+    world.maps[0].plan = toFloorPlan(grid, false);
     world.bounds = boundsOf(world.maps[0].plan, {});
-    const OccupancyGrid again = rasterOf(world, {0.05, {0, 1}});
+    const OccupancyGrid again = rasterize(world, {0.05, {0, 1}});
     ASSERT_EQ(drawn(again), drawn(grid)) << "seed " << seed;
     EXPECT_NEAR(again.map_from_grid.x, grid.map_from_grid.x, 1e-12);
     EXPECT_NEAR(again.map_from_grid.y, grid.map_from_grid.y, 1e-12);
@@ -147,11 +147,11 @@ TEST(Raster, AlignsWithTheCellsOfTheMap) {
   grid.map_from_grid = {0.02, -0.03, 0};
   World world;
   world.maps.emplace_back();
-  world.maps[0].plan = floorPlanOf(grid, false);
+  world.maps[0].plan = toFloorPlan(grid, false);
   world.bounds = boundsOf(world.maps[0].plan, {});
   MapExtent extent = *extentOfMap(world);
   extent.heights = {0, 1};
-  const OccupancyGrid again = rasterOf(world, extent);
+  const OccupancyGrid again = rasterize(world, extent);
   EXPECT_EQ(drawn(again), drawn(grid));
   EXPECT_EQ(again.cell_m, 0.05);
   EXPECT_NEAR(again.map_from_grid.x, 0.02, 1e-12);
@@ -183,7 +183,7 @@ TEST(GridmapWriter, CompressesReadably) {
 TEST(Raster, IsRejectedAboveTheCellLimit) {
   const World world = emptyWorld({0, 100, 0, 100});
   try {
-    rasterOf(world, {0.001, {0, 1}});
+    rasterize(world, {0.001, {0, 1}});
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(
@@ -196,7 +196,7 @@ OccupancyGrid sampleRaster() {
   Rng rng(7, RandomPurpose::test);
   World world = randomWorld(rng);
   add(world, cuboid(3.1, 0, 0, 0.3, 1, 0));
-  return rasterOf(world, {0.05, {0, 1}});
+  return rasterize(world, {0.05, {0, 1}});
 }
 
 TEST(GridmapWriter, IsReadByMrptCellByCell) {
@@ -249,7 +249,7 @@ TEST(RosMapWriter, WritesTheFormatOfMapServer) {
             "image: \"my lab: 1.png\"\nresolution: 0.05\norigin: [-2.1, 12.5, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
             "free_thresh: 0.196\n");
   const OccupancyGrid again =
-      readRosMap("a.yaml", providerOf("world.xml", {{"a.yaml", map.yaml}, {"my lab: 1.png", map.png}}));
+      readRosMap("a.yaml", makeProvider("world.xml", {{"a.yaml", map.yaml}, {"my lab: 1.png", map.png}}));
   EXPECT_EQ(drawn(again), drawn(grid));
   EXPECT_EQ(again.map_from_grid, mrpt::math::TPose2D(-2.1, 12.5, 0));
 }

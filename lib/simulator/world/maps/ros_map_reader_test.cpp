@@ -10,7 +10,7 @@
 namespace robosim {
 namespace {
 
-OccupancyGrid readFrom(const FileTexts& files) { return readRosMap("lab/a.yaml", providerOf("world.xml", files)); }
+OccupancyGrid readFrom(const FileTexts& files) { return readRosMap("lab/a.yaml", makeProvider("world.xml", files)); }
 
 TEST(RosMap, ReadsItsPictureRelativeToItsFolder) {
   const OccupancyGrid grid =
@@ -49,7 +49,7 @@ std::string maskYaml(const std::string& image) {
 
 TEST(RosMap, IncludesItsThresholdsAsNav2OrNotAsRos1) {
   const FileTexts texts{{"a.yaml", maskYaml("a.pgm")}, {"a.pgm", "P2 3 1 255  0 128 255"}};
-  const FileProvider files = providerOf("world.xml", texts);
+  const FileProvider files = makeProvider("world.xml", texts);
   EXPECT_EQ(drawn(readRosMap("a.yaml", files)), "#?.\n");
   EXPECT_EQ(drawn(readRosMap("a.yaml", files, ofRos1())), "???\n");
 }
@@ -61,7 +61,7 @@ TEST(RosMap, TakesTransparentPixelsForUnknownAsNav2OrAveragesAlphaAsRos1) {
   picture.at<cv::Vec4b>(0, 2) = {255, 255, 255, 255};
   for (const std::string mode : {"trinary", "scale"}) {
     const FileTexts texts{{"a.yaml", rosYaml("a.png") + "mode: " + mode + "\n"}, {"a.png", pngBytes(picture)}};
-    const FileProvider files = providerOf("world.xml", texts);
+    const FileProvider files = makeProvider("world.xml", texts);
     const OccupancyGrid grid = readRosMap("a.yaml", files);
     EXPECT_EQ(drawn(grid), "#?.\n");
     EXPECT_EQ(grid.transparent, 1u);
@@ -71,7 +71,7 @@ TEST(RosMap, TakesTransparentPixelsForUnknownAsNav2OrAveragesAlphaAsRos1) {
 
 std::vector<std::string> warningsOf(const FileTexts& files) {
   useMapFormats();
-  return readMap("a.yaml", providerOf("world.xml", files), {}).warnings;
+  return readMap("a.yaml", makeProvider("world.xml", files), {}).warnings;
 }
 
 TEST(RosMap, WarnsOfMapsWithoutWallsOrFreeCellsAndOfTransparentPixels) {
@@ -103,7 +103,7 @@ TEST(RosMap, EqualsMrptsMapForBlackAndWhitePixels) {
   for (const auto& [name, text] : files) std::ofstream(folder / name, std::ios::binary) << text;
   mrpt::maps::COccupancyGridMap2D theirs;
   ASSERT_TRUE(theirs.loadFromROSMapServerYAML((folder / "a.yaml").string()));
-  const OccupancyGrid ours = readRosMap("a.yaml", providerOf("world.xml", files));
+  const OccupancyGrid ours = readRosMap("a.yaml", makeProvider("world.xml", files));
   ASSERT_EQ(ours.columns, theirs.getSizeX());
   ASSERT_EQ(ours.rows, theirs.getSizeY());
   EXPECT_NEAR(ours.map_from_grid.x, theirs.getXMin(), 1e-6);

@@ -26,7 +26,7 @@ const FileTexts kFiles{{"lab.pgm", "P2 3 2 255  0 205 254  254 254 0"},
 
 World parsedWithMaps(const std::string& text, ErrorList& errors) {
   useMapFormats();
-  return parseWorld(text, "some/a.xml", providerOf("some/a.xml", kFiles), errors);
+  return parseWorld(text, "some/a.xml", makeProvider("some/a.xml", kFiles), errors);
 }
 World parsedWithMaps(const std::string& text) {
   ErrorList errors;
@@ -135,7 +135,7 @@ TEST(WorldMap, ReportsFaultsOfItsFileAtTheFilesLine) {
                          "image: a.pgm\nresolution: nan\norigin: [0, 0, 0]\nnegate: 0\n"
                          "occupied_thresh: 0.65\nfree_thresh: 0.196"}};
   ErrorList errors;
-  parseWorld(worldWithMaps("<map file='b.yaml'/>"), "some/a.xml", providerOf("some/a.xml", files), errors);
+  parseWorld(worldWithMaps("<map file='b.yaml'/>"), "some/a.xml", makeProvider("some/a.xml", files), errors);
   EXPECT_EQ(errors.errors(), Lines{"some/b.yaml:2: resolution: nan: must be a number in (0, 100] metres per pixel"});
 }
 
@@ -144,7 +144,7 @@ TEST(WorldMap, ReportsFaultsOfBinaryFilesAtTheWorldsLine) {
   const FileTexts files{{"a.png", "no picture"}, {"a.gridmap", "no grid"}, {"a.yaml", rosYaml("a.png")}};
   const auto fault = [&](const std::string& map) {
     ErrorList errors;
-    parseWorld("<world><surface>\n" + map + "</surface></world>", "a.xml", providerOf("a.xml", files), errors);
+    parseWorld("<world><surface>\n" + map + "</surface></world>", "a.xml", makeProvider("a.xml", files), errors);
     return errors.errors();
   };
   const std::string no_picture = "a.png: is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these";
@@ -161,7 +161,7 @@ TEST(WorldMap, MayBeEmptyOnlyIfTheWorldHasASize) {
   const FileTexts files{{"a.map", "2D-Map\n"}};
   const auto faults_with = [&](const std::string& size) {
     ErrorList errors;
-    parseWorld(worldWithMaps(size + "<map file='a.map'/>"), "a.xml", providerOf("a.xml", files), errors);
+    parseWorld(worldWithMaps(size + "<map file='a.map'/>"), "a.xml", makeProvider("a.xml", files), errors);
     return errors.errors();
   };
   EXPECT_EQ(faults_with(""), Lines{"a.xml:1: <surface>: has no <size>, and its maps are empty; add a <size>"});

@@ -38,7 +38,7 @@ inline std::vector<std::string> faultsOf(const std::string& name, const FileText
                                          const MapReading& reading = {}) {
   useMapFormats();
   try {
-    readMap(name, providerOf("maps/world.xml", files), reading);
+    readMap(name, makeProvider("maps/world.xml", files), reading);
     return {};
   } catch (const ConfigError& error) {
     return error.errors();
