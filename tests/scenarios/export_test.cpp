@@ -43,7 +43,7 @@ void exportWorld(const std::string& arguments) {
 /// Compares every cell of a grid with the scene used for collisions.
 void expectAgreesWithScene(const COccupancyGridMap2D& grid, const std::string& world_file) {
   const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/" + world_file, {});
-  const Scene scene(stationarySolids(loaded.world), 0, loaded.world.bounds);
+  const Scene scene(startSolids(loaded.world), 0, loaded.world.bounds);
   std::vector<Solid> unknown;
   for (const auto& map : loaded.world.maps) {
     for (const auto& solid : unknownSolids(map)) unknown.push_back(solid);

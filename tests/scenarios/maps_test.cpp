@@ -64,7 +64,7 @@ TEST(Maps, AreSentToRobotsWorkersAndViewers) {
   const auto worker = startWorker(world.connectOptions().address);
   world.waitForLog(": ready");
   Viewer viewer(world.connectOptions());
-  EXPECT_EQ(stationarySolids(viewer.run().world.world).size(), 68u + 182u + 10u);
+  EXPECT_EQ(startSolids(viewer.run().world.world).size(), 68u + 182u + 10u);
   std::vector<std::unique_ptr<StartedProgram>> robots;
   for (const auto& name : world.robotNames()) robots.push_back(startRobots({name}, world.connectOptions().address));
   EXPECT_EQ(world.wait(), Served::to_its_end);

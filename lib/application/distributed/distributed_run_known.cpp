@@ -21,6 +21,7 @@ void DistributedRun::chooseExchange() {
   const auto interaction = Interaction::of(environment.world(), environment.fleet(), environment.time().period_s);
   std::string reason = interaction.unlimited_by;
   if (distribution_.exchange == RankExchange::all) reason = "as requested";
+  if (!environment.state().object_speeds.empty()) reason = "robots may push objects";
   if (!environment.world().timeline.empty()) reason = "the world file changes the world during the run";
   if (has_supervisors_) reason = "an observer may change the run";
   if (shares_.ranks() == 1) reason = "there is one rank";

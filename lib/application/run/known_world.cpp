@@ -43,7 +43,7 @@ std::shared_ptr<const KnownWorld> makeKnownWorld(const World& world, const Fleet
   known->occupied.resize(known->columns * known->rows);
   HeightSpan heights{0, 0};
   for (const auto& robot : fleet.robots) heights.z_max_m = std::max(heights.z_max_m, robot.info.height_m);
-  for (const auto& solid : stationarySolids(world)) {
+  for (const auto& solid : startSolids(world)) {
     if (solid.heights.overlaps(heights)) occupy(solid.outline, *known);
   }
   for (const auto& object : world.objects) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <mrpt/math/TPoint2D.h>
 
+#include "geometry/shapes/planar_vector.h"
+
 namespace robosim {
 
 /// A measured point of a surface, with the direction in which the surface faces. Frame: as stated where it is used.
@@ -9,7 +11,5 @@ struct SurfacePoint {
   mrpt::math::TPoint2D normal;  ///< unit length, towards the robot
   double std_m = 0.03;          ///< of the distance along the normal
 };
-
-inline double dot(const mrpt::math::TPoint2D& a, const mrpt::math::TPoint2D& b) { return a.x * b.x + a.y * b.y; }
 
 }  // namespace robosim

@@ -203,11 +203,11 @@ void Scene::clip(Path& path, double radius_m, const HeightSpan& heights, BodyId 
   grid.visitArea({start.x - reach_m, start.x + reach_m, start.y - reach_m, start.y + reach_m}, clip_at);
 }
 
-void Scene::findMoving(const TPoint2D& at, double reach_m, std::vector<std::uint32_t>& found) const {
+void Scene::findMoving(const TPoint2D& at, double reach_m, std::size_t count, std::vector<std::uint32_t>& found) const {
   found.clear();
   const RangeCull near({at, {}, 0}, reach_m, index_->moving.middle());
   index_->moving.visitNear(near.bounds(), [&](const CenterIndex::Entry& entry) {
-    if (near.mayContain(entry.solid)) found.push_back(entry.index);
+    if (near.mayContain(entry.solid) && entry.index < count) found.push_back(entry.index);
   });
 }
 

@@ -70,8 +70,10 @@ class Scene {
   /// Reduces path.end_fraction to the first contact of a disc on the path with a stationary solid whose heights overlap
   /// the disc's (swept-disc test; see firstContact()).
   void clip(Path& path, double radius_m, const HeightSpan& heights, BodyId owner = kNoBody) const;
-  /// Replaces `found` by the moving solids within `reach_m` of a point, each once. Solids beyond may be found too.
-  void findMoving(const mrpt::math::TPoint2D& at, double reach_m, std::vector<std::uint32_t>& found) const;
+  /// Replaces `found` by those of the first `count` moving solids that are within `reach_m` of a point, each once.
+  /// Solids beyond may be found too.
+  void findMoving(const mrpt::math::TPoint2D& at, double reach_m, std::size_t count,
+                  std::vector<std::uint32_t>& found) const;
   /// Appends the bodies whose bounding rectangle intersects `area`, in ascending order, each once: a superset of those
   /// that overlap it.
   void findBodies(const Bounds2D& area, std::vector<BodyId>& found) const;

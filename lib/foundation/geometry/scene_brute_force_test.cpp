@@ -236,7 +236,7 @@ TEST(Scene, FindsAllMovingSolidsWithinReachOnce) {
     for (int i = 0; i < 10; ++i) {
       const TPoint2D at = randomPoint(rng, wider(area, 0.5));
       const double reach_m = randomRange(rng);
-      scene.findMoving(at, reach_m, found);
+      scene.findMoving(at, reach_m, scene.movingCount(), found);
       std::sort(found.begin(), found.end());
       ASSERT_EQ(std::adjacent_find(found.begin(), found.end()), found.end()) << name;
       for (std::uint32_t k = 0; k < scene.movingCount(); ++k) {

@@ -4,9 +4,11 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "dynamics/object_mover.h"
 #include "environment/environment.h"
 #include "environment/known_robots.h"
 #include "environment/message_router.h"
@@ -35,6 +37,9 @@ struct Environment::Impl {
   }
 
   static Mover moverOf(const FleetRobot& robot) { return {robot.info.radius_m, robot.body.heights()}; }
+  static PushingDisc pushingDiscOf(const FleetRobot& robot) {
+    return {robot.info.radius_m, robot.body.heights(), robot.model->push_max_n};
+  }
   static double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
 
   const std::shared_ptr<const Model> model;
@@ -45,8 +50,9 @@ struct Environment::Impl {
   PlacedBodies bodies;
   Scene& scene;  ///< of the bodies
   MoveAuthorisation move_authorisation;
+  ObjectMover object_mover;
+  std::vector<ObjectMotion> motions;  ///< of the movable objects: of State::objects and State::object_speeds
   MessageRouter message_router;
-  Referee referee;
   RobotGroups robot_groups;
   std::vector<MotionLimits> limits;  ///< by robot
   KnownRobots known;
@@ -70,8 +76,8 @@ struct Environment::Impl {
         bodies(*model, state.objects.orThose(model->world.objects)),
         scene(bodies.scene()),
         move_authorisation(ofRobots(fleet, moverOf), model->world.bounds),
+        object_mover(bodies.movable(), ofRobots(fleet, pushingDiscOf), model->world.bounds),
         message_router(ofRobots(fleet, [](const auto& robot) { return robot.info.name; }), model->world.communication),
-        referee(state.objects.orThose(model->world.objects), model->world.win_distance_m),
         robot_groups(fleet, model->period_s),
         limits(ofRobots(fleet, [](const auto& robot) { return robot.info.limits; })),
         known(fleet.robots.size()),
@@ -86,6 +92,7 @@ struct Environment::Impl {
   /// After the state was replaced.
   void noteState() {
     noteAbsentRobots();
+    noteMotions();
     message_router.setCommunication(state.communication.value_or(model->world.communication));
     may_have_messages = true;
     may_send.resize(state.outboxes.size());
@@ -98,7 +105,16 @@ struct Environment::Impl {
         std::find(state.activity.begin(), state.activity.end(), Activity::absent) != state.activity.end();
   }
 
-  void placeBodies() { bodies.place(state, known, share.kept, workers); }
+  const std::vector<WorldObject>& objects() const { return state.objects.orThose(model->world.objects); }
+
+  void noteMotions() {
+    motions.clear();
+    for (const auto object : movableOf(objects())) {
+      motions.push_back({state.object_speeds[motions.size()], objects()[object].body.world_from_body});
+    }
+  }
+
+  void placeBodies() { bodies.place(state, motions, known, share.kept, workers); }
 
   void clearInboxes() {
     const auto clear = [&](std::size_t i) { state.readings[i].inbox.clear(); };
@@ -129,6 +145,7 @@ struct Environment::Impl {
 
   void move() {
     move_authorisation.conclude(workers, known, paths, state.stalled);
+    if (!motions.empty()) moveObjects();
     known.forEach(workers, kRobotChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
@@ -143,6 +160,19 @@ struct Environment::Impl {
     };
     state.stalls += workers.reduce(counted.end - counted.begin, std::uint64_t{0}, stalls_of, std::plus<>());
     placeBodies();
+  }
+
+  void moveObjects() {
+    if (!object_mover.move(scene, workers, model->period_s, paths, motions)) return;
+    for (std::size_t i = 0; i < paths.size(); ++i) state.stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
+    std::vector<WorldObject> moved = objects();
+    for (std::size_t k = 0, object = 0; k < motions.size(); ++object) {
+      if (!moved[object].movable) continue;
+      moved[object].body.world_from_body = motions[k].world_from_object;
+      state.object_speeds[k] = motions[k];
+      ++k;
+    }
+    state.objects = ChangedObjects(std::move(moved));
   }
 
   RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
@@ -218,18 +248,35 @@ struct Environment::Impl {
     placeBodies();
   }
 
-  void setObjects(std::vector<WorldObject> objects) {
+  /// @param changed their name: it is at rest then
+  void setObjects(std::vector<WorldObject> objects, const std::string& changed) {
+    state.object_speeds = speedsOf(objects, changed);
     state.objects = ChangedObjects(std::move(objects));
     ++pose_changes;
     useObjects();
+    noteMotions();
     placeBodies();
+  }
+
+  /// Speeds of a list of objects: those that objects of the same names have now.
+  std::vector<ObjectSpeed> speedsOf(const std::vector<WorldObject>& objects_then, const std::string& at_rest) const {
+    std::map<std::string, ObjectSpeed> now;
+    const auto& objects_now = objects();
+    std::size_t k = 0;
+    for (const auto object : movableOf(objects_now)) now[objects_now[object].name] = state.object_speeds[k++];
+    now.erase(at_rest);
+    std::vector<ObjectSpeed> speeds;
+    for (const auto object : movableOf(objects_then)) {
+      const auto found = now.find(objects_then[object].name);
+      speeds.push_back(found == now.end() ? ObjectSpeed{} : found->second);
+    }
+    return speeds;
   }
 
   /// After State::objects were replaced.
   void useObjects() {
-    const auto& objects = state.objects.orThose(model->world.objects);
-    bodies.setObjects(objects);
-    referee = Referee(objects, model->world.win_distance_m);
+    bodies.setObjects(objects());
+    object_mover = ObjectMover(bodies.movable(), ofRobots(fleet, pushingDiscOf), model->world.bounds);
   }
 
   void remove(std::span<const std::size_t> robots) {
@@ -286,7 +333,9 @@ struct Environment::Impl {
       std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
     }
     noteOutcome();
-    if (state.digest) state.digest->add(state, workers, share.digested);
+    if (!state.digest) return;
+    state.digest->add(state, workers, share.digested);
+    if (!motions.empty()) state.digest->add(motions);
   }
 
   void noteOutcome() {
@@ -310,6 +359,7 @@ struct Environment::Impl {
   }
 
   void decideWinner() {
+    const Referee referee(objects(), model->world.win_distance_m);
     const auto winner = referee.decide(state.win_requests, [this](std::size_t robot) {
       const auto& pose = state.world_from_robot[robot];
       return Circle{{pose.x, pose.y}, fleet.robots[robot].info.radius_m};

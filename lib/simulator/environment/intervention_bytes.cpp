@@ -56,6 +56,23 @@ ChangedObjects readObjects(StateReader& in) {
   return ChangedObjects(std::move(objects));
 }
 
+void writeSpeeds(const State& state, StateWriter& out) {
+  out.addNumber(static_cast<std::uint32_t>(state.object_speeds.size()));
+  for (const ObjectSpeed& speed : state.object_speeds) {
+    for (const double number : {speed.vx_mps, speed.vy_mps, speed.turn_radps}) out.addNumber(number);
+  }
+}
+
+void readSpeeds(StateReader& in, State& state) {
+  const std::size_t movable =
+      state.objects.areChanged() ? movableOf(state.objects.orThose({})).size() : state.object_speeds.size();
+  requireContents(in.takeNumber<std::uint32_t>() == movable, "the number of movable objects differs");
+  state.object_speeds.resize(movable);
+  for (ObjectSpeed& speed : state.object_speeds) {
+    for (double* number : {&speed.vx_mps, &speed.vy_mps, &speed.turn_radps}) *number = in.takeFinite();
+  }
+}
+
 void writeInterventions(const State& state, StateWriter& out) {
   out.addNumber(state.interventions_applied);
   out.addNumber(static_cast<std::uint32_t>(state.interventions.size()));
@@ -64,6 +81,7 @@ void writeInterventions(const State& state, StateWriter& out) {
     writeIntervention(applied.intervention, out);
   }
   writeObjects(state.objects, out);
+  writeSpeeds(state, out);
   out.addNumber(std::uint8_t{state.communication.has_value()});
   if (state.communication) out.addText(changeText(ChangeRadio{*state.communication}));
   out.addNumber(std::uint8_t{state.ended.has_value()});
@@ -83,6 +101,7 @@ void readInterventions(StateReader& in, State& state) {
     applied.intervention = readIntervention(in);
   }
   state.objects = readObjects(in);
+  readSpeeds(in, state);
   if (in.takeFlag()) state.communication = takeChangeOf<ChangeRadio>(in).communication;
   if (in.takeFlag()) {
     const auto step = in.takeNumber<std::uint64_t>();

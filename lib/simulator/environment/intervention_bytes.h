@@ -17,6 +17,11 @@ void writeObjects(const ChangedObjects& objects, StateWriter& out);
 /// @throws InvalidContents
 ChangedObjects readObjects(StateReader& in);
 
+/// State::object_speeds, after the objects.
+void writeSpeeds(const State& state, StateWriter& out);
+/// @param state has its objects already @throws InvalidContents
+void readSpeeds(StateReader& in, State& state);
+
 /// All members of the state that interventions change but those of robots.
 void writeInterventions(const State& state, StateWriter& out);
 /// @param state its time is that of the saved state @throws InvalidContents

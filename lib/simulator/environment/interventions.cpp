@@ -52,7 +52,7 @@ struct Environment::Impl::ApplyChange {
              " objects, the most that interventions add to; remove some";
     }
     if (const auto fault = placeFault(add.object, kNoBody); !fault.empty()) return fault;
-    of.setObjects(withChange(objects(), add));
+    of.setObjects(withChange(objects(), add), add.object.name);
     return {};
   }
 
@@ -63,7 +63,7 @@ struct Environment::Impl::ApplyChange {
       return {};
     }
     if (!objectNamed(remove.name)) return unknown(remove.name, "a robot or an object");
-    of.setObjects(withChange(objects(), remove));
+    of.setObjects(withChange(objects(), remove), remove.name);
     return {};
   }
 
@@ -100,7 +100,7 @@ struct Environment::Impl::ApplyChange {
   }
 
  private:
-  const std::vector<WorldObject>& objects() const { return of.state.objects.orThose(of.model->world.objects); }
+  const std::vector<WorldObject>& objects() const { return of.objects(); }
 
   std::optional<std::size_t> robotNamed(const std::string& name) const {
     const auto& names = of.message_router.names();
@@ -122,9 +122,9 @@ struct Environment::Impl::ApplyChange {
     const Body& after = all[object].body;
     const bool moves = after.world_from_body != before.world_from_body || after.heights() != before.heights();
     if (moves) {
-      if (auto fault = placeFault(all[object], static_cast<BodyId>(object)); !fault.empty()) return fault;
+      if (auto fault = placeFault(all[object], of.bodies.bodyOf(object)); !fault.empty()) return fault;
     }
-    of.setObjects(std::move(all));
+    of.setObjects(std::move(all), moves ? objects()[object].name : std::string());
     return {};
   }
 
@@ -133,7 +133,9 @@ struct Environment::Impl::ApplyChange {
     if (!is_checked) return {};
     const auto& pose = object.body.world_from_body;
     const Bounds2D& surface = of.model->world.bounds;
-    if (!surface.covers({pose.x, pose.x, pose.y, pose.y})) return notOnSurface(object.name);
+    const bool is_on_surface =
+        object.movable ? surface.covers(boundsOf(object.body.solid().outline)) : surface.contains({pose.x, pose.y});
+    if (!is_on_surface) return notOnSurface(object.name);
     return overlapFault(object.name, object.body.solid(), own);
   }
 
@@ -144,9 +146,8 @@ struct Environment::Impl::ApplyChange {
   }
 
   std::string described(BodyId body) const {
-    const auto i = static_cast<std::size_t>(body);
-    if (i < objects().size()) return inQuotes(objects()[i].name);
-    if (i < of.scene.stationaryCount()) return "a wall of a map";
+    if (const auto object = of.bodies.objectOf(body)) return inQuotes(objects()[*object].name);
+    if (!of.bodies.isRobot(body)) return "a wall of a map";
     return inQuotes(of.message_router.names()[of.scene.movingIndex(body)]);
   }
 

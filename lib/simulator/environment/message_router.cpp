@@ -146,7 +146,7 @@ void MessageRouter::transmitToAll(std::uint32_t from, std::size_t index, const s
     return;
   }
   const auto& pose = delivery.robots.world_from_robot[from];
-  delivery.robots.scene.findMoving({pose.x, pose.y}, *communication_.range_m + kSearchSlack_m, near_);
+  delivery.robots.scene.findMoving({pose.x, pose.y}, *communication_.range_m + kSearchSlack_m, names_.size(), near_);
   std::sort(near_.begin(), near_.end());
   const std::size_t present = delivery.presentRobots();
   delivery.counts.lost.absent += robots - present;

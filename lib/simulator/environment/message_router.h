@@ -142,7 +142,7 @@ class MessageRouter {
   std::vector<std::string> names_;
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
-  RadioChannel channel_{communication_};
+  RadioChannel channel_{communication_, names_.size()};
   std::vector<InboxLimit> limits_;  ///< by receiver; unused ones between two calls of deliver()
   std::vector<std::uint32_t> receivers_;
   std::vector<std::uint32_t> near_;  ///< memory of transmitToAll()

@@ -49,8 +49,11 @@ void add(Digest& digest, const Solid& solid) {
 }
 
 void add(Digest& digest, const WorldObject& object) {
-  const auto& [name, body, stationary, line] = object;  // the name and the place in the file have no effect
+  const auto& [name, body, movable, line] = object;  // the name and the place in the file have no effect
   add(digest, body);
+  if (!movable) return;
+  const auto& [mass_kg, friction, restitution] = *movable;
+  for (const double value : {mass_kg, friction, restitution}) digest.add(value);
 }
 
 void add(Digest& digest, const World& world) {
@@ -69,7 +72,7 @@ void add(Digest& digest, const World& world) {
   }
   digest.add(objects.size());
   for (const auto& object : objects) add(digest, object);
-  for (const auto& solid : stationarySolids(world)) add(digest, solid);
+  for (const auto& solid : startSolids(world)) add(digest, solid);
   for (const auto& timed : timeline) {
     digest.add(timed.time_s);
     add(digest, changeText(timed.change));
@@ -85,6 +88,7 @@ void add(Digest& digest, const FleetRobot& robot) {
                              limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2}) {
     digest.add(value);
   }
+  digest.add(robot.model->push_max_n);
   digest.add(robot.model->sensors_digest);
   digest.add(robot.info.sensors->size());
   for (const auto& sensor : *robot.info.sensors) {

@@ -66,7 +66,7 @@ std::span<const std::uint32_t> MoveAuthorisation::robotsNear(const Scene& scene,
   static thread_local std::vector<std::uint32_t> found;
   const double reach_m =
       movers_[robot].radius_m + std::abs(path.length_m) + radius_max_m_ + length_max_m_ + kContactGap_m;
-  scene.findMoving(startOf(path), reach_m, found);
+  scene.findMoving(startOf(path), reach_m, movers_.size(), found);
   return found;
 }
 

@@ -5,9 +5,7 @@
 namespace robosim {
 
 PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& objects)
-    : model_(model),
-      scene_(stationarySolids(objects, model.world.maps), model.fleet.robots.size(), model.world.bounds),
-      frames_(model.fleet.robots.size()) {
+    : model_(model), scene_({}, 0, model.world.bounds), frames_(model.fleet.robots.size()) {
   robot_bodies_.reserve(model.fleet.robots.size());
   for (const auto& robot : model.fleet.robots) {
     CompactBody& compact = robot_bodies_.emplace_back(CompactBody{{}, robot.body.heights()});
@@ -17,20 +15,46 @@ PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& o
       beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
     }
   }
-  addProperties(objects);
+  setObjects(objects);
 }
 
 void PlacedBodies::setObjects(const std::vector<WorldObject>& objects) {
-  scene_ = Scene(stationarySolids(objects, model_.world.maps), model_.fleet.robots.size(), model_.world.bounds);
+  listObjects(objects);
   heat_sources_.clear();
   reflectivity_.clear();
   addProperties(objects);
 }
 
+void PlacedBodies::listObjects(const std::vector<WorldObject>& objects) {
+  movable_.clear();
+  for (const auto& object : objects) {
+    if (object.movable) movable_.push_back(MovableBody::from(object.body, *object.movable));
+  }
+  const std::size_t robots = model_.fleet.robots.size();
+  scene_ = Scene(stationarySolids(objects, model_.world.maps), robots + movable_.size(), model_.world.bounds);
+  body_of_object_.clear();
+  std::uint32_t stationary = 0;
+  std::size_t moving = robots;
+  for (const auto& object : objects) {
+    body_of_object_.push_back(object.movable ? scene_.movingBody(moving++) : BodyId{stationary++});
+  }
+}
+
+std::optional<std::size_t> PlacedBodies::objectOf(BodyId body) const {
+  const auto found = std::find(body_of_object_.begin(), body_of_object_.end(), body);
+  if (found == body_of_object_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - body_of_object_.begin());
+}
+
+bool PlacedBodies::isRobot(BodyId body) const {
+  const auto i = static_cast<std::size_t>(body);
+  return i >= scene_.stationaryCount() && scene_.movingIndex(body) < robot_bodies_.size();
+}
+
 void PlacedBodies::addProperties(const std::vector<WorldObject>& objects) {
   const auto& robots = model_.fleet.robots;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const auto id = static_cast<BodyId>(i);
+    const BodyId id = body_of_object_[i];
     const auto& pose = objects[i].body.world_from_body;
     addHeatSource(objects[i].body, {pose.x, pose.y}, id);
     addReflectivity(objects[i].body, id);
@@ -51,8 +75,11 @@ void PlacedBodies::addReflectivity(const Body& body, BodyId id) {
   reflectivity_[static_cast<std::size_t>(id)] = static_cast<float>(body.reflectivity);
 }
 
-void PlacedBodies::place(const State& state, const KnownRobots& known, RobotRange kept,
-                         const ParallelExecutor& workers) {
+void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motions, const KnownRobots& known,
+                         RobotRange kept, const ParallelExecutor& workers) {
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    scene_.place(robot_bodies_.size() + k, {movable_[k].outlineAt(motions[k].world_from_object), movable_[k].heights});
+  }
   known.forEach(workers, kRobotChunk, [&](std::size_t i) {
     if (state.isAbsent(i)) return scene_.remove(i);
     const auto& pose = state.world_from_robot[i];
@@ -67,6 +94,11 @@ void PlacedBodies::place(const State& state, const KnownRobots& known, RobotRang
   for (auto& source : heat_sources_) {
     if (static_cast<std::size_t>(source.body) < scene_.stationaryCount()) continue;
     const std::size_t robot = scene_.movingIndex(source.body);
+    if (robot >= robot_bodies_.size()) {
+      const auto& pose = motions[robot - robot_bodies_.size()].world_from_object;
+      source.center = {pose.x, pose.y};
+      continue;
+    }
     const auto& pose = state.world_from_robot[robot];
     source.center = {pose.x, pose.y};
     source.heat_celsius = state.isAbsent(robot) ? 0 : model_.fleet.robots[robot].body.heat_celsius;
@@ -91,7 +123,7 @@ BodyId PlacedBodies::overlapped(const Solid& solid, BodyId except) const {
   const auto as_obstacle = [&](BodyId body) {
     Solid obstacle = scene_.solid(body);
     const auto* box = std::get_if<OrientedBox>(&obstacle.outline);
-    if (!box || static_cast<std::size_t>(body) < scene_.stationaryCount()) return obstacle;
+    if (!box || !isRobot(body)) return obstacle;
     return discOf(scene_.movingIndex(body), box->center);
   };
   std::vector<BodyId> near;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parallel_executor.h"
+#include "dynamics/movable_body.h"
 #include "environment/known_robots.h"
 #include "environment/model.h"
 #include "environment/robot_range.h"
@@ -21,13 +22,21 @@ class PlacedBodies {
 
   /// Replaces the objects, in time linear in the size of the world. place() must follow.
   void setObjects(const std::vector<WorldObject>& objects);
+  /// The movable ones, in their order. The scene's moving solids are the robots, then these.
+  const std::vector<MovableBody>& movable() const { return movable_; }
 
-  /// Places the known robots. Absent ones are not in the scene and emit no heat.
+  /// Places the known robots and the movable objects. Absent robots are not in the scene and emit no heat.
+  /// @param motions of the movable objects
   /// @param kept robots whose frames sensors need
-  void place(const State& state, const KnownRobots& known, RobotRange kept, const ParallelExecutor& workers);
+  void place(const State& state, std::span<const ObjectMotion> motions, const KnownRobots& known, RobotRange kept,
+             const ParallelExecutor& workers);
 
   /// Of a placed state. Users may only update its neighbours.
   Scene& scene() { return scene_; }
+  /// The body of an object in the scene, and the object that a body is; nullopt: a wall or a robot.
+  BodyId bodyOf(std::size_t object) const { return body_of_object_[object]; }
+  std::optional<std::size_t> objectOf(BodyId body) const;
+  bool isRobot(BodyId body) const;
   /// The first body but `except` that a solid overlaps; kNoBody for none. Robots count as the discs for which their
   /// moves are authorised.
   BodyId overlapped(const Solid& solid, BodyId except) const;
@@ -44,6 +53,7 @@ class PlacedBodies {
     HeightSpan heights;
   };
 
+  void listObjects(const std::vector<WorldObject>& objects);
   void addProperties(const std::vector<WorldObject>& objects);
   void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id);
   void addReflectivity(const Body& body, BodyId id);
@@ -52,9 +62,11 @@ class PlacedBodies {
   const Model& model_;
   Scene scene_;
   std::vector<CompactBody> robot_bodies_;
+  std::vector<MovableBody> movable_;
+  std::vector<BodyId> body_of_object_;
   double beyond_body_m_ = 0;              ///< maximum by which the disc of a robot extends beyond its body
   std::vector<PlanarTransform> frames_;   ///< of the robots whose readings are kept
-  std::vector<HeatSource> heat_sources_;  ///< hot objects, then hot robots
+  std::vector<HeatSource> heat_sources_;  ///< hot objects, then hot robots; those of moving bodies follow them
   std::vector<float> reflectivity_;       ///< by body; empty if all have the default
 };
 

@@ -24,7 +24,7 @@ MessageFate RadioChannel::decideFate(std::uint64_t seed, const SimTime& now, con
   const auto& b = way.to_antenna;
   const double distance_m = c.range_m ? portable::hypot(a.x - b.x, a.y - b.y) : 0;
   if (c.range_m && distance_m > *c.range_m) return MessageFate::out_of_range;
-  const int walls = c.hasWalls() ? wallsBetween(scene, a, b) : 0;
+  const int walls = c.hasWalls() ? wallsBetween(scene, a, b, robots_) : 0;
   if (c.range_m && distance_m + walls * c.wall_range_m > *c.range_m) return MessageFate::stopped_by_walls;
   Rng rng(seed, RandomPurpose::message_loss, way.from, static_cast<std::uint32_t>(way.index), now.step);
   if (c.loss_probability > 0 && rng.uniform() < c.loss_probability) return MessageFate::lost_by_chance;
@@ -53,7 +53,8 @@ bool RadioChannel::isBad(std::uint64_t seed, const SimTime& now, std::uint32_t a
   return Rng(seed, RandomPurpose::radio_burst, first, second, 0).uniform() < to_bad / (to_bad + to_good);
 }
 
-int RadioChannel::wallsBetween(const Scene& scene, const mrpt::math::TPoint3D& a, const mrpt::math::TPoint3D& b) {
+int RadioChannel::wallsBetween(const Scene& scene, const mrpt::math::TPoint3D& a, const mrpt::math::TPoint3D& b,
+                               std::size_t robots) {
   const auto out = b - a;
   const double length_m = portable::hypot(portable::hypot(out.x, out.y), out.z);
   if (length_m == 0) return 0;
@@ -64,7 +65,7 @@ int RadioChannel::wallsBetween(const Scene& scene, const mrpt::math::TPoint3D& a
   static thread_local std::vector<RaySpan> occupied;
   occupied.clear();
   for (const BodyId body : near) {
-    if (static_cast<std::size_t>(body) >= scene.stationaryCount()) break;  // they are in ascending order
+    if (static_cast<std::size_t>(body) >= scene.stationaryCount() && scene.movingIndex(body) < robots) continue;
     const auto span = spanInside(ray, scene.solid(body));
     if (span && span->to_m >= 0 && span->from_m < length_m) occupied.push_back(*span);
   }

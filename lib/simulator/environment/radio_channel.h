@@ -25,8 +25,13 @@ enum class MessageFate { arrives, out_of_range, stopped_by_walls, lost_by_chance
 /// depends on the material.
 class RadioChannel {
  public:
+  /// Number of robots of a scene whose moving solids are all robots.
+  static constexpr std::size_t kAllMoving = ~std::size_t{0};
+
   /// @param communication must outlive this object
-  explicit RadioChannel(const Communication& communication) : communication_(communication) {}
+  /// @param robots the first moving solids of scenes, which are no walls; those after them are objects
+  explicit RadioChannel(const Communication& communication, std::size_t robots = kAllMoving)
+      : communication_(communication), robots_(robots) {}
 
   /// A message between two robots.
   struct Way {
@@ -37,12 +42,14 @@ class RadioChannel {
   MessageFate decideFate(std::uint64_t seed, const SimTime& now, const Scene& scene, const Way& way) const;
   /// Whether the channel of two robots is in the bad state.
   bool isBad(std::uint64_t seed, const SimTime& now, std::uint32_t a, std::uint32_t b) const;
-  /// Number of walls between two points: connected parts of the line between them that stationary solids occupy. Solids
+  /// Number of walls between two points: connected parts of the line between them that walls and objects occupy. Solids
   /// that touch, such as the rectangles of a map's wall, are one wall.
-  static int wallsBetween(const Scene&, const mrpt::math::TPoint3D& a, const mrpt::math::TPoint3D& b);
+  static int wallsBetween(const Scene&, const mrpt::math::TPoint3D& a, const mrpt::math::TPoint3D& b,
+                          std::size_t robots = kAllMoving);
 
  private:
   const Communication& communication_;
+  std::size_t robots_;
 };
 
 /// Number of whole steps by which messages are delayed beyond the next step.

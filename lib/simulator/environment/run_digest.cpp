@@ -86,15 +86,24 @@ void RunDigest::add(const State& state, const ParallelExecutor& workers, RobotRa
   });
 }
 
+void RunDigest::add(std::span<const ObjectMotion> objects) {
+  for (const ObjectMotion& object : objects) {
+    const auto& pose = object.world_from_object;
+    for (const double number : {pose.x, pose.y, pose.phi, object.vx_mps, object.vy_mps, object.turn_radps}) {
+      of_objects_.add(number);
+    }
+  }
+}
+
 void RunDigest::add(std::uint64_t step, const Change& change) {
   const std::string text = changeText(change);
-  of_interventions_.add(step);
-  of_interventions_.add(text.size());
-  of_interventions_.addBytes(text.data(), text.size());
+  of_objects_.add(step);
+  of_objects_.add(text.size());
+  of_objects_.addBytes(text.data(), text.size());
 }
 
 void RunDigest::save(std::string& out) const {
-  of_interventions_.save(out);
+  of_objects_.save(out);
   save({0, of_chunk_.size() * kDigestChunk}, out);
 }
 
@@ -103,7 +112,7 @@ void RunDigest::save(RobotRange robots, std::string& out) const {
 }
 
 bool RunDigest::load(std::string_view saved) {
-  return saved.size() == savedBytes() && of_interventions_.load(saved.substr(0, Digest::kSavedBytes)) &&
+  return saved.size() == savedBytes() && of_objects_.load(saved.substr(0, Digest::kSavedBytes)) &&
          load({0, of_chunk_.size() * kDigestChunk}, saved.substr(Digest::kSavedBytes));
 }
 
@@ -120,7 +129,7 @@ bool RunDigest::load(RobotRange robots, std::string_view saved) {
 std::string RunDigest::text() const {
   Digest all;
   for (const auto& chunk : of_chunk_) all.add(chunk.value());
-  if (of_interventions_ != Digest()) all.add(of_interventions_.value());
+  if (of_objects_ != Digest()) all.add(of_objects_.value());
   return all.text();
 }
 

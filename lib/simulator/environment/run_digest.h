@@ -1,11 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/digest.h"
 #include "base/parallel_executor.h"
+#include "dynamics/movable_body.h"
 #include "environment/robot_range.h"
 #include "world/intervention.h"
 
@@ -23,6 +25,8 @@ class RunDigest {
   void add(const State& state, const ParallelExecutor& workers);
   /// The same for some robots, which are whole chunks.
   void add(const State& state, const ParallelExecutor& workers, RobotRange robots);
+  /// Adds the movable objects after a step.
+  void add(std::span<const ObjectMotion> objects);
   /// Adds an intervention before a step. Its author has no effect.
   void add(std::uint64_t step, const Change& change);
   std::string text() const;
@@ -44,7 +48,7 @@ class RunDigest {
 
  private:
   std::vector<Digest> of_chunk_;
-  Digest of_interventions_;  ///< without effect while empty
+  Digest of_objects_;  ///< of interventions and of movable objects; without effect while empty
 };
 
 }  // namespace robosim

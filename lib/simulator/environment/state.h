@@ -7,6 +7,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include "base/sim_time.h"
+#include "dynamics/movable_body.h"
 #include "environment/message_router.h"
 #include "environment/model.h"
 #include "environment/robot_range.h"
@@ -67,6 +68,7 @@ struct State {
   /// @name Interventions (Environment::apply())
   ///@{
   ChangedObjects objects;                      ///< instead of World::objects
+  std::vector<ObjectSpeed> object_speeds;      ///< of the movable objects, in their order
   std::optional<Communication> communication;  ///< instead of World::communication
   std::optional<RunEnd> ended;
   std::uint64_t interventions_applied = 0;  ///< so far

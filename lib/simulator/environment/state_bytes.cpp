@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 6;  ///< since 6, with interventions
+constexpr std::uint32_t kVersion = 7;  ///< since 7, with movable objects
 constexpr std::size_t kSizeAt = 20;    ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);

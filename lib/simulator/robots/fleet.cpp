@@ -119,7 +119,9 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
     starts.push_back(startOf(placement, fleet.robots.back()));
   }
   if (fleet.robots.size() == world.robots.size()) setRobotColors(world, fleet);
-  if (are_poses_valid) checkStarts(world, starts, world_file, errors);
+  if (!are_poses_valid) return fleet;
+  checkStarts(world, starts, world_file, errors);
+  checkMovableObjects(world, world_file, errors);
   return fleet;
 }
 
@@ -151,6 +153,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
   }
   setRobotColors(world, fleet);
   checkStarts(world, starts, world_file, errors);
+  checkMovableObjects(world, world_file, errors);
   return fleet;
 }
 

@@ -39,7 +39,7 @@ FreeSpace::FreeSpace(const World& world, double radius_m, const HeightSpan& heig
         std::min({p.x - bounds_.x_min, bounds_.x_max - p.x, p.y - bounds_.y_min, bounds_.y_max - p.y});
     if (to_rim < radius_m) free_[i] = 0;
   }
-  for (const auto& solid : stationarySolids(world)) {
+  for (const auto& solid : startSolids(world)) {
     if (!solid.heights.overlaps(heights)) continue;
     block(solid.outline, radius_m);
     closeEdges(solid.outline);

@@ -33,16 +33,16 @@ Body readBody(XmlReader& reader, BodyLook& look) {
   return body;
 }
 
-MotionLimits readLimits(XmlReader& reader) {
-  MotionLimits limits;
+void readLimits(XmlReader& reader, RobotModel& model) {
+  MotionLimits& limits = model.limits;
   limits.speed_max_mps = reader.number("speed_max_mps", Bounds::positive(100));
   limits.turn_max_radps = kRadPerDeg * reader.number("turn_max_degps", Bounds::positive(3600));
   limits.accel_mps2 = reader.number("accel_mps2", Bounds::positive(1000));
   limits.decel_mps2 = reader.number("decel_mps2", Bounds::positive(1000));
   limits.turn_accel_radps2 = kRadPerDeg * reader.number("turn_accel_degps2", Bounds::positive(36000));
   limits.emergency_decel_mps2 = reader.number("emergency_decel_mps2", {limits.decel_mps2, 1000}, limits.decel_mps2);
+  model.push_max_n = reader.number("push_max_n", {0, 100000}, model.push_max_n);
   reader.finish();
-  return limits;
 }
 
 /// Sensors of a model, with whether the file gives each a label.
@@ -147,7 +147,7 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
   XmlReader body = root.requiredChild("body");
   setBody(readBody(body, model.look), model);
   XmlReader limits = root.requiredChild("limits");
-  model.limits = readLimits(limits);
+  readLimits(limits, model);
   if (auto element = root.child("arcos")) model.arcos = readArcosParameters(*element);
   if (description.body) setBody(*description.body, model);
   auto sensors = root.child("sensors");

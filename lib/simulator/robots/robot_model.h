@@ -21,6 +21,10 @@ enum class BodyLook {
   deck,  ///< a hull between two wheels with a flat deck, like a Pioneer; used for any box-shaped robot
 };
 
+/// Default of RobotModel::push_max_n: a third of the weight of a Pioneer 3-DX of 9 kg (data sheet), a coefficient that
+/// rubber tyres reach on most floors.
+constexpr double kPushMax_n = 30;
+
 /// Model of a robot type: body, limits and mounted sensors. Robots of one type share one model.
 struct RobotModel {
   std::string name;  ///< "pioneer3dx"; "2005" for robots described in the world file itself
@@ -29,6 +33,7 @@ struct RobotModel {
   BodyLook look = BodyLook::drum;
   double radius_m = 0;  ///< of the disc used for move authorisation: Body::coveringRadius()
   MotionLimits limits;
+  double push_max_n = kPushMax_n;  ///< force with which it pushes objects; >= 0, 0: none moves
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::shared_ptr<const std::vector<SensorInfo>> sensor_infos;  ///< of `sensors`, with unique labels
   /// Hash of the elements that describe the sensors, and thus of all their options; 0 for a model not read from a file.

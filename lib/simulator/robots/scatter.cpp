@@ -93,7 +93,7 @@ class Scatterer {
         types_(types),
         seed_(seed),
         errors_(errors),
-        solids_(stationarySolids(world)),
+        solids_(startSolids(world)),
         scene_(solids_, 0, world.bounds) {
     scene_.freeze();
     addPlacedRobots();

@@ -38,7 +38,7 @@ Scatter pillars(int count, double radius_m, ScatterPattern pattern) {
   Scatter scatter;
   scatter.count = count;
   scatter.pattern = pattern;
-  scatter.copied = WorldObject{.name = "Pillar", .body = pillar(radius_m), .stationary = true, .line = {}};
+  scatter.copied = WorldObject{.name = "Pillar", .body = pillar(radius_m), .line = {}};
   scatter.line = {3};
   return scatter;
 }

@@ -70,7 +70,7 @@ std::vector<std::vector<std::size_t>> solidsNear(const std::vector<RobotStart>& 
   return near;
 }
 
-/// Map that a solid of stationarySolids() belongs to; null for an object's.
+/// Map that a solid of startSolids() belongs to; null for an object's.
 const WorldMap* mapWith(const World& world, std::size_t solid) {
   if (solid < world.objects.size()) return nullptr;
   solid -= world.objects.size();
@@ -82,10 +82,12 @@ const WorldMap* mapWith(const World& world, std::size_t solid) {
   return nullptr;
 }
 
-std::string placeOf(const RobotStart& robot) {
+std::string placeText(const mrpt::math::TPoint2D& at) {
   const auto text = [](double at_m) { return toText(std::round(at_m * 1000) / 1000 + 0.0); };
-  return "at (" + text(robot.disc.center.x) + ", " + text(robot.disc.center.y) + ") m";
+  return "at (" + text(at.x) + ", " + text(at.y) + ") m";
 }
+
+std::string placeOf(const RobotStart& robot) { return placeText(robot.disc.center); }
 
 /// Note for a box-shaped robot whose box does not overlap the solid.
 std::string discNote(const RobotStart& robot, const Solid& solid) {
@@ -106,11 +108,50 @@ Circle withoutSeam(const Circle& disc, const WorldMap& map) {
   return {disc.center, disc.radius_m - 2 * computeSeam(map.plan, map.world_from_map)};
 }
 
+std::string placeOf(const WorldObject& object) {
+  const auto& pose = object.body.world_from_body;
+  return placeText({pose.x, pose.y});
+}
+
 }  // namespace
+
+void checkMovableObjects(const World& world, const std::string& world_file, ErrorList& errors) {
+  const auto is_movable = [](const WorldObject& object) { return object.movable.has_value(); };
+  if (std::none_of(world.objects.begin(), world.objects.end(), is_movable)) return;
+  const std::vector<Solid> solids = startSolids(world);
+  const Scene scene(solids, 0, world.bounds);
+  std::vector<BodyId> near;
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    const WorldObject& object = world.objects[i];
+    if (!object.movable) continue;
+    const auto report = [&](const std::string& fault) {
+      errors.add(world.fileOf(object.line, world_file), object.line.number,
+                 "the movable object '" + object.name + "' " + placeOf(object) + " " + fault);
+    };
+    const Bounds2D area = boundsOf(solids[i].outline);
+    if (!world.bounds.covers(area)) {
+      report("stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>");
+    }
+    near.clear();
+    scene.findBodies(area, near);
+    for (const BodyId body : near) {
+      const auto other = static_cast<std::size_t>(body);
+      if (other == i || !overlap(solids[i], solids[other])) continue;
+      if (const WorldMap* map = mapWith(world, other)) {
+        report("overlaps an obstacle of the map '" + map->file + "'; move the object");
+        break;
+      }
+      const WorldObject& with = world.objects[other];
+      if (with.movable && other < i) continue;  // reported with that one
+      report("overlaps the object '" + with.name + "' " + lineText(world, with.line, object.line, world_file) +
+             "; move one of them");
+    }
+  }
+}
 
 void checkStarts(const World& world, const std::vector<RobotStart>& robots, const std::string& world_file,
                  ErrorList& errors) {
-  const std::vector<Solid> solids = stationarySolids(world);
+  const std::vector<Solid> solids = startSolids(world);
   const auto solids_near = solidsNear(robots, solids, world.bounds);
   CheckedRobots checked(robots);
   for (std::size_t i = 0; i < robots.size(); ++i) {

@@ -20,5 +20,7 @@ struct RobotStart {
 /// Adds to `errors` every robot that is not entirely on the surface, or overlaps an object or another robot. Touching
 /// is not an overlap. Takes linear time in the number of robots.
 void checkStarts(const World&, const std::vector<RobotStart>&, const std::string& world_file, ErrorList& errors);
+/// Adds to `errors` every movable object that is not entirely on the surface, or overlaps another object or a wall.
+void checkMovableObjects(const World&, const std::string& world_file, ErrorList& errors);
 
 }  // namespace robosim

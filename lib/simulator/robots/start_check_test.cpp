@@ -26,7 +26,7 @@ void addPillar(World& world, const std::string& name, double x, double y, double
   body.world_from_body = {x, y, 0};
   body.height_m = heights.z_max_m - heights.z_min_m;
   body.center_z_m = (heights.z_min_m + heights.z_max_m) / 2;
-  world.objects.push_back({.name = name, .body = body, .stationary = true, .line = {7}});
+  world.objects.push_back({.name = name, .body = body, .line = {7}});
 }
 
 RobotStart robot(const std::string& name, int line, double x, double y, double radius, HeightSpan heights = {0, 1}) {

@@ -90,7 +90,7 @@ bool FreePlaces::takeAt(const TPoint2D& place, double clearance_m) {
   const Circle disc{place, kind_.info.radius_m + kContactGap_m};
   if (!is_in_region || !world_.bounds.covers(boundsOf(disc))) return false;
   const Solid solid{disc, kind_.body.heights()};
-  const auto solids = stationarySolids(world_);
+  const auto solids = startSolids(world_);
   return std::none_of(solids.begin(), solids.end(), [&](const Solid& other) { return overlap(solid, other); }) &&
          take(place, clearance_m);
 }

@@ -74,7 +74,7 @@ class RangeAndBearing : public Sensor {
   void findCandidates(const Snapshot& now, std::uint32_t robot, std::vector<std::uint32_t>& found,
                       std::vector<Candidate>& candidates) const {
     const auto& own = now.world_from_robot[robot];
-    now.scene.findMoving({own.x, own.y}, options_.info.range_max_m, found);
+    now.scene.findMoving({own.x, own.y}, options_.info.range_max_m, now.world_from_robot.size(), found);
     candidates.clear();
     for (const auto other : found) {
       if (other == robot) continue;

@@ -6,7 +6,7 @@ namespace robosim {
 
 bool mayReceivePing(const Snapshot& now, std::uint32_t robot, const Ray& axis, double half_rad, double range_max_m) {
   static thread_local std::vector<std::uint32_t> found;
-  now.scene.findMoving({axis.origin.x, axis.origin.y}, range_max_m, found);
+  now.scene.findMoving({axis.origin.x, axis.origin.y}, range_max_m, now.world_from_robot.size(), found);
   const double ahead_min = portable::cos(half_rad);
   for (const auto other : found) {
     if (other == robot) continue;

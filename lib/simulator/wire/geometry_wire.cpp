@@ -58,6 +58,7 @@ void encode(const State& state, internal::ReplicaState& out) {
   }
   StateWriter objects;
   writeObjects(state.objects, objects);
+  writeSpeeds(state, objects);
   out.set_objects(std::move(objects.bytes));
 }
 
@@ -79,6 +80,7 @@ void decodeInto(const internal::ReplicaState& in, State& state) {
   try {
     StateReader objects(in.objects());
     state.objects = readObjects(objects);
+    readSpeeds(objects, state);
     if (!objects.isAtEnd()) throw WireError("a state with objects of another form");
   } catch (const InvalidContents& fault) {
     throw WireError(std::string("a state with invalid objects: ") + fault.what());

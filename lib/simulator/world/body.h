@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -40,10 +41,22 @@ struct Body {
   HeightSpan heights() const { return {center_z_m - height_m / 2, center_z_m + height_m / 2}; }
 };
 
+/// How an object moves that robots push (doc/moving_objects.md). It stands with its whole base on the floor.
+struct Movable {
+  double mass_kg = 1;      ///< > 0
+  double friction = 0.5;   ///< its coefficient on the floor, >= 0; of rolling for a ball
+  double restitution = 0;  ///< [0, 1]: share of the speed with which it leaves a collision
+  bool operator==(const Movable&) const = default;
+
+  /// Of an object of a 2005 file, which states only that it is not stationary: as heavy as filled cardboard boxes are,
+  /// 100 kg/m³.
+  static Movable byVolumeOf(const Body&);
+};
+
 struct WorldObject {
   std::string name;
   Body body;
-  bool stationary = true;  ///< kept for the file format only: objects other than robots never move
+  std::optional<Movable> movable = {};  ///< nullopt: stationary
   SourceLine line;
   bool operator==(const WorldObject&) const = default;
 };

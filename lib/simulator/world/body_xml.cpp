@@ -41,6 +41,21 @@ Body readBody(XmlReader& solid, double unit_m, bool has_place) {
   return body;
 }
 
+std::optional<Movable> readMovable(XmlReader& solid, const Body& body) {
+  auto settings = solid.child("movable");
+  const bool is_stationary = solid.flag("stationary", !settings);
+  if (!settings) return is_stationary ? std::nullopt : std::optional(Movable::byVolumeOf(body));
+  if (is_stationary) {
+    settings->error("is given to an object that is <stationary>1</stationary>; remove one of the two");
+  }
+  Movable movable = Movable::byVolumeOf(body);
+  movable.mass_kg = settings->number("mass_kg", Bounds::positive(), movable.mass_kg);
+  movable.friction = settings->number("friction", Bounds::notNegative(), movable.friction);
+  movable.restitution = settings->number("restitution", {0, 1}, movable.restitution);
+  settings->finish();
+  return movable;
+}
+
 mrpt::math::TPose2D readPose(XmlReader& reader, double unit_m) {
   const double x = reader.length("x", Bounds::any(), unit_m);
   const double y = reader.length("y", Bounds::any(), unit_m);
@@ -53,12 +68,11 @@ std::optional<std::array<float, 3>> readColor(XmlReader& reader) {
   return std::array{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
 
-void writeBody(const WorldObject& object, double unit_m, bool has_place, XmlElement& owner) {
-  const Body& body = object.body;
+XmlElement& writeBody(const std::string& name, const Body& body, double unit_m, bool has_place, XmlElement& owner) {
   const auto* cylinder = std::get_if<Cylinder>(&body.shape);
   XmlElement& element = owner.add(cylinder ? "cylinder" : "cube");
   const auto add_length = [&](const char* tag, double length_m) { element.add(tag, toText(length_m, unit_m)); };
-  element.add("name", object.name);
+  element.add("name", name);
   if (has_place) writePose(body.world_from_body, unit_m, element);
   add_length("z", body.center_z_m);
   if (cylinder) {
@@ -72,7 +86,16 @@ void writeBody(const WorldObject& object, double unit_m, bool has_place, XmlElem
   element.add("color", colorText(body.color));
   element.add("hot", toText(body.heat_celsius));
   if (body.reflectivity != kReflectivity) element.add("reflectivity", toText(body.reflectivity));
-  element.add("stationary", object.stationary ? "1" : "0");
+  return element;
+}
+
+void writeObject(const WorldObject& object, double unit_m, bool has_place, XmlElement& owner) {
+  XmlElement& element = writeBody(object.name, object.body, unit_m, has_place, owner);
+  element.add("stationary", object.movable ? "0" : "1");
+  if (!object.movable) return;
+  element.add("movable", "").attributes = {{"mass_kg", toText(object.movable->mass_kg)},
+                                           {"friction", toText(object.movable->friction)},
+                                           {"restitution", toText(object.movable->restitution)}};
 }
 
 void writePose(const mrpt::math::TPose2D& pose, double unit_m, XmlElement& element) {

@@ -42,6 +42,14 @@ struct ObjectChange {
 
 }  // namespace
 
+std::vector<std::uint32_t> movableOf(const std::vector<WorldObject>& objects) {
+  std::vector<std::uint32_t> movable;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].movable) movable.push_back(static_cast<std::uint32_t>(i));
+  }
+  return movable;
+}
+
 std::vector<WorldObject> withChange(std::vector<WorldObject> objects, const Change& change) {
   std::visit(ObjectChange{objects}, change);
   return objects;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -29,6 +30,9 @@ class ChangedObjects {
  private:
   std::shared_ptr<const std::vector<WorldObject>> objects_;
 };
+
+/// The objects that robots push, as indices of a list.
+std::vector<std::uint32_t> movableOf(const std::vector<WorldObject>& objects);
 
 /// The objects after a change: one is placed, added, removed or changed. Unchanged by changes of anything else, and by
 /// those of an unknown name. Nothing is checked.

@@ -51,13 +51,13 @@ AddObject readAddObject(XmlReader& reader, double unit_m) {
   add.object.line = solid->line();
   add.object.name = readName(*solid);
   add.object.body = readBody(*solid, unit_m, true);
-  add.object.stationary = solid->flag("stationary", true);
+  add.object.movable = readMovable(*solid, add.object.body);
   solid->finish();
   return add;
 }
 void write(const AddObject& add, double unit_m, XmlElement& element) {
   element.name = "add";
-  writeBody(add.object, unit_m, true, element);
+  writeObject(add.object, unit_m, true, element);
 }
 
 RemoveBody readRemoveBody(XmlReader& reader, double) { return {readName(reader)}; }

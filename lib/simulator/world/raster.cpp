@@ -166,7 +166,7 @@ std::optional<MapExtent> extentOfMap(const World& world) {
 }
 
 OccupancyGrid rasterize(const World& world, const MapExtent& extent) {
-  std::vector<Solid> solids = stationarySolids(world);
+  std::vector<Solid> solids = startSolids(world);
   const HeightSpan heights{extent.heights.z_min_m + kTouch_m, extent.heights.z_max_m - kTouch_m};
   std::erase_if(solids, [&](const Solid& solid) { return !solid.heights.overlaps(heights); });
   Bounds2D area = world.bounds;

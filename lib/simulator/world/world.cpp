@@ -29,14 +29,28 @@ std::vector<Solid> unknownSolids(const WorldMap& map) {
   return boxes;
 }
 
-std::vector<Solid> stationarySolids(const World& world) { return stationarySolids(world.objects, world.maps); }
+namespace {
 
-std::vector<Solid> stationarySolids(const std::vector<WorldObject>& objects, const std::vector<WorldMap>& maps) {
+template <typename Select>
+std::vector<Solid> solidsOf(const std::vector<WorldObject>& objects, const std::vector<WorldMap>& maps,
+                            const Select& select) {
   std::vector<Solid> solids;
   solids.reserve(objects.size());
-  for (const auto& object : objects) solids.push_back(object.body.solid());
+  for (const auto& object : objects) {
+    if (select(object)) solids.push_back(object.body.solid());
+  }
   for (const auto& map : maps) addSolids(map.plan, map.world_from_map, map.heights(), solids);
   return solids;
+}
+
+}  // namespace
+
+std::vector<Solid> startSolids(const World& world) {
+  return solidsOf(world.objects, world.maps, [](const WorldObject&) { return true; });
+}
+
+std::vector<Solid> stationarySolids(const std::vector<WorldObject>& objects, const std::vector<WorldMap>& maps) {
+  return solidsOf(objects, maps, [](const WorldObject& object) { return !object.movable; });
 }
 
 }  // namespace robosim

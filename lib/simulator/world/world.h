@@ -116,8 +116,9 @@ struct World {
 /// Unknown cells of a map as boxes of the map's height. They are no obstacles.
 std::vector<Solid> unknownSolids(const WorldMap&);
 
-/// All stationary solids: first the objects, in their order, then those of each map.
-std::vector<Solid> stationarySolids(const World&);
+/// All solids but robots, as they are at the start: first the objects, in their order, then those of each map.
+std::vector<Solid> startSolids(const World&);
+/// Those that never move: the stationary ones of some objects, in their order, then the solids of each map.
 std::vector<Solid> stationarySolids(const std::vector<WorldObject>& objects, const std::vector<WorldMap>& maps);
 
 }  // namespace robosim

@@ -63,7 +63,7 @@ TEST(WorldReader, ReadsThe2005FileUnchanged) {
   EXPECT_EQ(wall.body.world_from_body, mrpt::math::TPose2D(0, 38, 0));
   EXPECT_EQ(wall.body.heights(), (HeightSpan{0, 10}));
   EXPECT_EQ(wall.body.color, (std::array<float, 3>{0.5f, 0.3f, 0.1f}));
-  EXPECT_TRUE(wall.stationary);
+  EXPECT_FALSE(wall.movable);
   const WorldObject& gold = world.objects[1];
   EXPECT_EQ(std::get<Cylinder>(gold.body.shape), Cylinder{1});
   EXPECT_EQ(gold.body.heat_celsius, 70);
@@ -109,7 +109,7 @@ TEST(WorldReader, AppliesDefaults) {
   EXPECT_EQ(world.objects[0].body.world_from_body.phi, 0);
   EXPECT_EQ(world.objects[0].body.heat_celsius, 0);
   EXPECT_EQ(world.objects[0].body.color, (std::array<float, 3>{0.5f, 0.5f, 0.5f}));
-  EXPECT_TRUE(world.objects[0].stationary);
+  EXPECT_FALSE(world.objects[0].movable);
 }
 
 TEST(WorldReader, PlacesARobotByItsModel) {

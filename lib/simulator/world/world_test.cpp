@@ -33,7 +33,7 @@ TEST(UnknownOf, ContainsNeitherWallsNorOccupiedCells) {
   EXPECT_NEAR(std::get<OrientedBox>(unknown[0].outline).center.x, 1.5, 1e-12);
   World world;
   world.maps = {map};
-  EXPECT_EQ(stationarySolids(world).size(), 2u);
+  EXPECT_EQ(startSolids(world).size(), 2u);
 }
 
 TEST(Body, IsAnOrientedBoxForACube) {

@@ -31,7 +31,7 @@ class WorldWriter {
     addLength(size, "ymax", world_.bounds.y_max);
     for (const auto& map : world_.maps) addMap(surface.add("map"), map);
     for (const auto& object : world_.objects) {
-      addBody(surface.add("object").add("shape").add("primitive"), object, Place::given);
+      writeObject(object, world_.unit_m, true, surface.add("object").add("shape").add("primitive"));
     }
     for (const auto& robot : world_.robots) {
       addRobot(surface.add("object").add("shape").add("robot"), robot, Place::given);
@@ -74,7 +74,7 @@ class WorldWriter {
       addRobot(element.add("robot"), *robot, Place::scattered);
     } else {
       const auto& object = std::get<WorldObject>(scatter.copied);
-      addBody(element.add("primitive"), object, Place::scattered);
+      writeObject(object, world_.unit_m, false, element.add("primitive"));
     }
   }
 
@@ -100,7 +100,7 @@ class WorldWriter {
     if (robot.body) {
       Body body = *robot.body;
       body.world_from_body = robot.world_from_robot;
-      addBody(element, {robot.name, body, false, {}}, place);
+      writeBody(robot.name, body, world_.unit_m, place == Place::given, element).add("stationary", "0");
     } else {
       element.add("name", robot.name);
       if (place == Place::given) writePose(robot.world_from_robot, world_.unit_m, element);
@@ -128,10 +128,6 @@ class WorldWriter {
         std::all_of(sensors.begin(), sensors.end(), [](const XmlElement& sensor) { return sensor.name == "sensor"; });
     auto& place = (all_2005 ? robot : robot.add("sensors")).children;
     place.insert(place.end(), sensors.begin(), sensors.end());
-  }
-
-  void addBody(XmlElement& element, const WorldObject& object, Place place) const {
-    writeBody(object, world_.unit_m, place == Place::given, element);
   }
 
   void addLength(XmlElement& element, const char* tag, double length_m) const {

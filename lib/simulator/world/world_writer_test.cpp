@@ -41,7 +41,8 @@ class WorldMaker {
     if (maybe()) world.win_distance_m = size(5);
     if (maybe()) world.start_distance_m = size(5);
     for (auto i = rng_.below(6); i > 0; --i) {
-      world.objects.push_back({.name = name(), .body = body(), .stationary = maybe(), .line = {}});
+      world.objects.push_back(
+          {.name = name(), .body = body(), .movable = maybe() ? std::optional(movable()) : std::nullopt, .line = {}});
     }
     const auto robots = rng_.below(6);
     for (std::uint32_t i = 0; i < robots; ++i) world.robots.push_back(robot());
@@ -53,6 +54,7 @@ class WorldMaker {
 
  private:
   bool maybe() { return rng_.below(2) == 1; }
+  Movable movable() { return {.mass_kg = size(1000), .friction = size(2), .restitution = rng_.uniform()}; }
   /// Random positive number of any magnitude up to `max`.
   double size(double max) { return max * std::pow(10, rng_.uniform(-6, 0)); }
   double coordinate() { return maybe() ? rng_.uniform(-100, 100) : static_cast<double>(rng_.below(100)) / 4; }

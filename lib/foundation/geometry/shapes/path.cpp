@@ -7,6 +7,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include "base/portable_math.h"
+#include "geometry/shapes/planar_vector.h"
 
 namespace robosim {
 namespace {
@@ -18,8 +19,6 @@ constexpr double kTurnPerChord_rad = 3 * M_PI / 180;
 /// treated as one. A million such steps would use up the contact gap. Positions are relative to the disc's start, so
 /// the bound holds anywhere in the world.
 constexpr double kSlideTolerance_m = 1e-12;
-
-double dot(const TPoint2D& a, const TPoint2D& b) { return a.x * b.x + a.y * b.y; }
 
 /// Displacement of the centre from the start after a share of the whole arc, world axes.
 TPoint2D onArc(const Path& path, double share) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/portable_math.h"
+#include "geometry/shapes/planar_vector.h"
 
 namespace robosim {
 namespace {
@@ -27,8 +28,6 @@ std::array<TPoint2D, 4> corners(const OrientedBox& box) {
   return {box.center + along + aside, box.center - along + aside, box.center - along - aside,
           box.center + along - aside};
 }
-
-double dot(const TPoint2D& a, const TPoint2D& b) { return a.x * b.x + a.y * b.y; }
 
 /// Half the length of the box's projection onto a line along the unit vector `direction`.
 double halfProjection(const OrientedBox& box, const TPoint2D& direction) {

@@ -36,7 +36,7 @@ void add(World& world, const Solid& solid) {
     body.shape = Cube{2 * box.half_length_m, 2 * box.half_width_m};
     body.world_from_body = {box.center.x, box.center.y, std::atan2(box.axis.y, box.axis.x)};
   }
-  world.objects.push_back({.name = "thing", .body = body, .stationary = true, .line = {}});
+  world.objects.push_back({.name = "thing", .body = body, .line = {}});
 }
 
 World randomWorld(Rng& rng) {
@@ -106,7 +106,7 @@ TEST(Raster, AgreesWithALoopOverAllSolidsCellByCell) {
     const World world = randomWorld(rng);
     const double cells_m[] = {0.25, 0.1, 0.37};
     const MapExtent extent{cells_m[rng.below(3)], {0.2, 0.2 + rng.uniform(0.1, 2)}};
-    const auto solids = stationarySolids(world);
+    const auto solids = startSolids(world);
     const OccupancyGrid grid = rasterize(world, extent);
     for (std::uint32_t row = 0; row < grid.rows; ++row) {
       for (std::uint32_t column = 0; column < grid.columns; ++column) {
@@ -278,7 +278,7 @@ TEST(OctomapWriter, AgreesWithALoopOverAllSolidsVoxelByVoxel) {
     const World world = randomWorld(rng);
     const double voxels_m[] = {0.25, 0.2, 0.37};
     const MapExtent extent{voxels_m[rng.below(3)], {0.2, 0.2 + rng.uniform(0.1, 2)}};
-    const auto solids = stationarySolids(world);
+    const auto solids = startSolids(world);
     const auto form = rng.below(2) ? OctomapForm::binary : OctomapForm::probabilities;
     const auto tree = readOctomap(toOctomap(world, extent, form, [](double) {}), form);
     ASSERT_TRUE(tree);

@@ -90,7 +90,7 @@ class OctomapBuilder {
         space_{world.bounds, extent.heights},
         progress_(progress),
         volume_m3_(space_.sharedVolume(space_)) {
-    for (const auto& solid : stationarySolids(world)) {
+    for (const auto& solid : startSolids(world)) {
       if (!solid.heights.overlaps(extent.heights)) continue;
       obstacles_.push_back({solid, Cuboid::around(solid)});
     }

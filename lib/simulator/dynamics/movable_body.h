@@ -1,0 +1,57 @@
+#pragma once
+#include <mrpt/math/TPose2D.h>
+
+#include "geometry/shapes/solid.h"
+#include "world/body.h"
+
+namespace robosim {
+
+/// What the motion of a movable object depends on, constant between interventions.
+///
+/// Its weight is spread evenly over its base, so that the friction of the floor resists pushes by force and torque
+/// within an ellipsoid, the limit surface (Howe & Cutkosky, "Practical force-motion models for sliding manipulation",
+/// IJRR 1996; Lynch & Mason, "Stable pushing", IJRR 1996). Its axes are `friction · weight` and `turn_radius_m` times
+/// that. The body's inertia is taken from the same length, as `mass · turn_radius²`: 12 % below that of a homogeneous
+/// disc. Then a push from rest and a continued push turn the body alike, and lengths in (x, y, turn_radius · turn)
+/// serve both.
+struct MovableBody {
+  std::variant<Cylinder, Cube> shape;
+  HeightSpan heights;
+  double mass_kg = 1;
+  double friction_n = 0;         ///< force of friction while it moves, >= 0
+  double restitution = 0;        ///< [0, 1]
+  double turn_radius_m = 1;      ///< mean distance of its base's points from the centre
+  double covering_radius_m = 0;  ///< Body::coveringRadius()
+  double width_min_m = 0;        ///< of its outline, in its narrowest direction
+
+  static MovableBody from(const Body& body, const Movable& movable);
+  Outline outlineAt(const mrpt::math::TPose2D& world_from_object) const;
+  double deceleration() const { return friction_n / mass_kg; }  ///< while nothing touches it [m/s²]
+};
+
+/// Mean distance [m] of the points of a shape from its centre. Disc: two thirds of the radius.
+double meanDistance(const std::variant<Cylinder, Cube>& shape);
+
+/// How a movable object moves between two steps.
+struct ObjectSpeed {
+  double vx_mps = 0, vy_mps = 0;  ///< of its centre, world frame
+  double turn_radps = 0;          ///< CCW
+
+  bool isAtRest() const { return vx_mps == 0 && vy_mps == 0 && turn_radps == 0; }
+  bool operator==(const ObjectSpeed&) const = default;
+};
+
+/// The same, and where it is.
+struct ObjectMotion : ObjectSpeed {
+  mrpt::math::TPose2D world_from_object;
+  bool operator==(const ObjectMotion&) const = default;
+};
+
+/// Robots move as these discs.
+struct PushingDisc {
+  double radius_m = 0;
+  HeightSpan heights;
+  double push_max_n = 0;  ///< what it can push
+};
+
+}  // namespace robosim
