@@ -201,7 +201,7 @@ class EverythingTutorial(Tutorial):
             time.sleep(self.DELAY_S)
         deadline = time.monotonic() + self.BOUND_S
         problems = []
-        for command, output, bash in started:  # the environment, then its clients
+        for command, output, bash in reversed(started):  # the clients, then what they are connected with
             is_interrupted = False
             try:
                 bash.wait(max(0, deadline - time.monotonic()))
@@ -267,6 +267,8 @@ def run_page(page, prefix, python_folder="lib/python3/dist-packages"):
 def main(arguments):
     if len(arguments) in (3, 4) and arguments[0] == "--everything":
         page = Path(arguments[1]).resolve()
+        # A background job of a shell ignores Ctrl-C, and so would all programs that it starts.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         with tempfile.TemporaryDirectory(prefix="tutorial-") as folder:
             try:
                 if len(arguments) == 4:
