@@ -24,11 +24,16 @@ struct Settings {
   int steps = 100;
   std::vector<std::string> observers = {};
   std::vector<TimedChange> timeline = {};
+  bool has_movable_objects = false;  ///< all but walls
 };
 
 LoadedWorld loaded(const Settings& settings) {
   LoadedWorld world = loadWorldToRun(shipped(settings.world), settings.controller);
   world.world.timeline = settings.timeline;
+  for (auto& object : world.world.objects) {
+    if (settings.has_movable_objects && object.body.coveringRadius() < 1)
+      object.movable = Movable{.mass_kg = 1, .friction = 0.1, .restitution = 0.5};
+  }
   return world;
 }
 
@@ -166,6 +171,18 @@ TEST(DistributedRun, EqualsARunInOneProcessWhoseWorldFileChangesTheWorld) {
   for (const int ranks : {2, 5})
     EXPECT_EQ(outcomeOnRanks(settings, ranks, 1, 7, false), outcomeOf(run, false)) << ranks;
   EXPECT_EQ(outcomeOnRanks(settings, 3, 2, 7), alone);
+}
+
+TEST(DistributedRun, EqualsARunInOneProcessWhoseRobotsPushObjects) {
+  for (const char* world : {"open_100", "scatter_swarm"}) {
+    Settings settings{world, "wander", 60};
+    settings.has_movable_objects = true;
+    LocalRun run(loaded(settings), optionsOf(settings, 1));
+    for (int i = 0; i < settings.steps; ++i) run.step();
+    EXPECT_TRUE(run.environment().state().objects.areChanged()) << world << ": no robot has pushed anything";
+    const std::string alone = outcomeOf(run, true);
+    for (const int ranks : {1, 2, 3, 4}) EXPECT_EQ(outcomeOnRanks(settings, ranks, 1 + ranks % 2, 7), alone) << ranks;
+  }
 }
 
 TEST(DistributedRun, EndsOnAllRanksAfterTheStepInWhichOneRequestsIt) {

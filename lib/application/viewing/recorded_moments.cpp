@@ -85,10 +85,11 @@ class RobosimRecording final : public RecordedMoments {
     ChangedObjects objects;
   };
 
-  /// Notes what the interventions before the last step that was read have made of the objects.
+  /// Notes what robots and the interventions before the last step that was read have made of the objects.
   void noteObjects() {
     for (const auto& comment : steps_.comments()) {
       if (auto all = objectsIn(comment)) objects_ = std::move(*all);
+      if (auto moved = movedBy(comment, objects_.orThose(world_.world.objects))) objects_ = std::move(*moved);
       const auto note = InterventionNote::parse(comment);
       if (!note) continue;
       const auto& before = objects_.orThose(world_.world.objects);

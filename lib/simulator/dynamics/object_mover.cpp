@@ -6,6 +6,7 @@
 
 #include "base/portable_math.h"
 #include "dynamics/sets.h"
+#include "geometry/shapes/planar_vector.h"
 
 namespace robosim {
 namespace {
@@ -17,11 +18,6 @@ using With = PushingGroup::Pair::With;
 constexpr double kSlack_m = 10 * kContactGap_m;
 
 TPoint2D startOf(const Path& path) { return {path.world_from_start.x, path.world_from_start.y}; }
-
-bool isWithin(const TPoint2D& a, const TPoint2D& b, double far_m) {
-  const TPoint2D way = a - b;
-  return way.x * way.x + way.y * way.y <= far_m * far_m;
-}
 
 }  // namespace
 

@@ -77,7 +77,7 @@ TEST(Scatter, GridPlacesFourPillarsInTheCorners) {
 
 TEST(Scatter, GridMovesTogetherWhereAPlaceIsTaken) {
   World world = square();
-  world.objects.push_back({.name = "First", .body = pillar(0.5), .stationary = true, .line = {}});
+  world.objects.push_back({.name = "First", .body = pillar(0.5), .line = {}});
   world.objects.back().body.world_from_body = {4.5, 4.5, 0};
   world.scatters = {pillars(4, 0.5, ScatterPattern::grid)};
   EXPECT_EQ(placed(world).objects.size(), 5u);
@@ -129,7 +129,7 @@ TEST(Scatter, FreePlacesAvoidClosedPocketsAndOtherAreas) {
   wall.shape = Cube{0.2, 10};
   wall.center_z_m = 0.5;
   wall.height_m = 1;
-  world.objects.push_back({.name = "Wall", .body = wall, .stationary = true, .line = {}});
+  world.objects.push_back({.name = "Wall", .body = wall, .line = {}});
   Scatter free = pillars(20, 0.2, ScatterPattern::free);
   free.area = Bounds2D{-2, 5, -5, 5};
   world.scatters = {free};
@@ -183,7 +183,7 @@ TEST(Scatter, KeepsTheGapInRandomWorlds) {
     for (auto i = rng.below(4); i > 0; --i) {
       Body body = pillar(rng.uniform(0.1, 1));
       body.world_from_body = {rng.uniform(-4, 4), rng.uniform(-4, 4), 0};
-      world.objects.push_back({.name = "Own" + std::to_string(i), .body = body, .stationary = true, .line = {}});
+      world.objects.push_back({.name = "Own" + std::to_string(i), .body = body, .line = {}});
     }
     const std::size_t own = world.objects.size();
     std::vector<double> gaps;

@@ -125,7 +125,8 @@ void ViewerSession::send(Stream& stream) {
     stream.sent_pictures.clear();
   }
   if (stream.needs_world ? state.objects.areChanged() : !state.objects.isSameList(stream.sent_objects)) {
-    encode(state.objects, *frame.mutable_objects());
+    const auto& of_world = run_info.environment.world().objects;
+    encode(state.objects, stream.needs_world ? of_world : stream.sent_objects.orThose(of_world), frame);
   }
   stream.sent_objects = state.objects;
   stream.sent_robots.resize(run_info.robot_names.size());

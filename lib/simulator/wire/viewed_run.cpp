@@ -91,6 +91,16 @@ ChangedObjects decode(const v1::FrameObjects& in) {
   return ChangedObjects(std::move(objects));
 }
 
+void moveObjects(const google::protobuf::RepeatedPtrField<v1::ObjectPlace>& places, ViewedRun& run) {
+  std::vector<WorldObject> objects = run.snapshot.objects.orThose(run.world.world.objects);
+  for (const v1::ObjectPlace& place : places) {
+    if (place.object() >= objects.size()) throw WireError("a frame with an object that the world does not have");
+    objects[place.object()].body.world_from_body = {checkedFinite(place.x_m()), checkedFinite(place.y_m()),
+                                                    checkedFinite(place.phi_rad())};
+  }
+  run.snapshot.objects = ChangedObjects(std::move(objects));
+}
+
 void checkRobot(std::uint32_t robot, const ViewedRun& run) {
   if (robot >= run.snapshot.robots.size()) throw WireError("a frame with a robot that the world does not have");
 }
@@ -116,10 +126,23 @@ ReadingsSelection decode(const v1::FrameRequest& in, std::size_t robots) {
   return selection;
 }
 
-void encode(const ChangedObjects& objects, v1::FrameObjects& out) {
-  out.set_are_of_world(!objects.areChanged());
+void encode(const ChangedObjects& changed, const std::vector<WorldObject>& sent, v1::Frame& out) {
   const std::vector<WorldObject> none;
-  for (const WorldObject& object : objects.orThose(none)) out.add_elements(changeText(AddObject{object}));
+  const auto& objects = changed.orThose(none);
+  if (const auto moved = movedBetween(sent, objects)) {
+    for (const auto i : *moved) {
+      const auto& pose = objects[i].body.world_from_body;
+      v1::ObjectPlace& place = *out.add_moved_objects();
+      place.set_object(i);
+      place.set_x_m(pose.x);
+      place.set_y_m(pose.y);
+      place.set_phi_rad(pose.phi);
+    }
+    return;
+  }
+  v1::FrameObjects& all = *out.mutable_objects();
+  all.set_are_of_world(!changed.areChanged());
+  for (const WorldObject& object : objects) all.add_elements(changeText(AddObject{object}));
 }
 
 void encode(const RobotSnapshot& snapshot, std::size_t robot, v1::RobotView& out) {
@@ -149,6 +172,7 @@ bool update(ViewedRun& run, const v1::Frame& frame) {
     run.snapshot.objects = {};
   }
   if (frame.has_objects()) run.snapshot.objects = decode(frame.objects());
+  if (frame.moved_objects_size() > 0) moveObjects(frame.moved_objects(), run);
   run.winner = frame.winner();
   RunSnapshot& snapshot = run.snapshot;
   snapshot.step = frame.step();

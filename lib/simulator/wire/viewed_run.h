@@ -49,7 +49,9 @@ void encode(const ReadingsSelection& selection, v1::FrameRequest& out);
 /// @param robots number of robots; higher indices are ignored
 ReadingsSelection decode(const v1::FrameRequest& in, std::size_t robots);
 
-void encode(const ChangedObjects& objects, v1::FrameObjects& out);
+/// Adds what has changed: all objects, or the places of those that have moved.
+/// @param sent the objects of the frames before
+void encode(const ChangedObjects& objects, const std::vector<WorldObject>& sent, v1::Frame& out);
 
 /// Encodes a robot's state without readings.
 void encode(const RobotSnapshot& snapshot, std::size_t robot, v1::RobotView& out);

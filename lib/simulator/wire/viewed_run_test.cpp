@@ -49,12 +49,15 @@ TEST(ViewedRun, HasTheObjectsOfTheLastFrameWithAny) {
   const auto& of_world = run.world.world.objects;
   const ChangedObjects moved(withChange(of_world, PlaceBody{of_world[0].name, 1.0 / 3, -2, 0.7}));
   v1::Frame frame;
-  encode(moved, *frame.mutable_objects());
+  encode(moved, of_world, frame);
+  EXPECT_FALSE(frame.has_objects());
+  EXPECT_EQ(frame.moved_objects_size(), 1) << "the place of the only one that has moved";
   update(run, frame);
   EXPECT_EQ(run.snapshot.objects, moved);
   update(run, v1::Frame());
   EXPECT_EQ(run.snapshot.objects, moved) << "those of a frame without any are unchanged";
-  encode(ChangedObjects(), *frame.mutable_objects());
+  frame.Clear();
+  encode(ChangedObjects(), moved.orThose({}), frame);
   update(run, frame);
   EXPECT_FALSE(run.snapshot.objects.areChanged());
   frame.mutable_objects()->set_are_of_world(false);

@@ -50,6 +50,20 @@ std::vector<std::uint32_t> movableOf(const std::vector<WorldObject>& objects) {
   return movable;
 }
 
+std::optional<std::vector<std::uint32_t>> movedBetween(const std::vector<WorldObject>& before,
+                                                       const std::vector<WorldObject>& after) {
+  if (before.size() != after.size()) return std::nullopt;
+  std::vector<std::uint32_t> moved;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (before[i] == after[i]) continue;
+    WorldObject placed = before[i];
+    placed.body.world_from_body = after[i].body.world_from_body;
+    if (placed != after[i]) return std::nullopt;
+    moved.push_back(static_cast<std::uint32_t>(i));
+  }
+  return moved;
+}
+
 std::vector<WorldObject> withChange(std::vector<WorldObject> objects, const Change& change) {
   std::visit(ObjectChange{objects}, change);
   return objects;

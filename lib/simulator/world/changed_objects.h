@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,10 @@ class ChangedObjects {
 
 /// The objects that robots push, as indices of a list.
 std::vector<std::uint32_t> movableOf(const std::vector<WorldObject>& objects);
+
+/// Indices of the objects at other places in a later list, which differs in nothing else; nullopt if it does.
+std::optional<std::vector<std::uint32_t>> movedBetween(const std::vector<WorldObject>& before,
+                                                       const std::vector<WorldObject>& after);
 
 /// The objects after a change: one is placed, added, removed or changed. Unchanged by changes of anything else, and by
 /// those of an unknown name. Nothing is checked.

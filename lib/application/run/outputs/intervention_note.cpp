@@ -5,13 +5,27 @@
 #include <nlohmann/json.hpp>
 
 namespace robosim {
+namespace {
+
+std::string dumped(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string noteOfAll(const ChangedObjects& changed) {
+  nlohmann::ordered_json json{{"robosim_objects", 1}, {"objects", nlohmann::ordered_json::array()}};
+  const std::vector<WorldObject> none;
+  for (const auto& object : changed.orThose(none)) json["objects"].push_back(changeText(AddObject{object}));
+  return dumped(json);
+}
+
+}  // namespace
 
 std::string InterventionNote::text() const {
   const nlohmann::ordered_json json{{"robosim_intervention", 1},
                                     {"step", step},
                                     {"author", intervention.author},
                                     {"change", changeText(intervention.change)}};
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return dumped(json);
 }
 
 std::optional<InterventionNote> InterventionNote::parse(const std::string& text) {
@@ -31,13 +45,37 @@ std::vector<std::string> notesBefore(const State& state, std::uint64_t step, boo
   for (const auto& applied : state.interventions) {
     if (applied.step == step) notes.push_back(InterventionNote{step, applied.intervention}.text());
   }
-  if (is_first && state.objects.areChanged()) {
-    nlohmann::ordered_json json{{"robosim_objects", 1}, {"objects", nlohmann::ordered_json::array()}};
-    const std::vector<WorldObject> none;
-    for (const auto& object : state.objects.orThose(none)) json["objects"].push_back(changeText(AddObject{object}));
-    notes.push_back(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  }
+  if (is_first && state.objects.areChanged()) notes.push_back(noteOfAll(state.objects));
   return notes;
+}
+
+std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now) {
+  if (recorded.isSameList(now) || !now.areChanged()) return {};
+  const std::vector<WorldObject> none;
+  const auto& objects = now.orThose(none);
+  const auto moved = movedBetween(recorded.orThose(none), objects);
+  if (!moved) return noteOfAll(now);
+  if (moved->empty()) return {};
+  nlohmann::ordered_json json{{"robosim_moved", 1}, {"places", nlohmann::ordered_json::array()}};
+  for (const auto i : *moved) {
+    const auto& pose = objects[i].body.world_from_body;
+    json["places"].push_back({i, pose.x, pose.y, pose.phi});
+  }
+  return dumped(json);
+}
+
+std::optional<ChangedObjects> movedBy(const std::string& text, const std::vector<WorldObject>& before) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("robosim_moved")) return std::nullopt;
+  try {
+    std::vector<WorldObject> objects = before;
+    for (const auto& place : json.at("places")) {
+      objects.at(place.at(0).get<std::size_t>()).body.world_from_body = {place.at(1), place.at(2), place.at(3)};
+    }
+    return ChangedObjects(std::move(objects));
+  } catch (const std::exception&) {  // of another form, or of an object that there is not
+    return std::nullopt;
+  }
 }
 
 std::optional<ChangedObjects> objectsIn(const std::string& text) {

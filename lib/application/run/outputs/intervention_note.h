@@ -23,6 +23,11 @@ struct InterventionNote {
 /// Texts of the notes of a state's interventions before a step.
 /// @param is_first whether a recording begins with this step: then also of the objects, if they have been changed
 std::vector<std::string> notesBefore(const State& state, std::uint64_t step, bool is_first);
+/// The note of objects that have moved since a recorded step: their places, or all objects if those were not recorded.
+/// Empty if none have.
+std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now);
+/// The objects after such a comment, from those before; nullopt if it is none, or of other objects.
+std::optional<ChangedObjects> movedBy(const std::string& text, const std::vector<WorldObject>& before);
 /// The objects in such a comment; nullopt if it is no note of them. @throws ConfigError for an invalid object
 std::optional<ChangedObjects> objectsIn(const std::string& text);
 

@@ -41,9 +41,12 @@ void RunRecording::open(const std::filesystem::path& file, const SimTime& start)
 void RunRecording::write(const State& state) {
   if (!writer_ || last_step_ == state.time.step) return;
   try {
-    writer_->write(state.readings, state.world_from_robot, state.commands,
-                   notesBefore(state, state.time.step, is_new_part_));
+    std::vector<std::string> notes = notesBefore(state, state.time.step, is_new_part_);
+    const std::string moved = is_new_part_ || state.object_speeds.empty() ? "" : movedNote(objects_, state.objects);
+    if (!moved.empty()) notes.push_back(moved);
+    writer_->write(state.readings, state.world_from_robot, state.commands, notes);
     is_new_part_ = false;
+    objects_ = state.objects;
   } catch (const RecordingError& error) {
     if (!is_requested_) throw;
     const auto writer = std::move(writer_);

@@ -66,6 +66,7 @@ class RunRecording {
   std::unique_ptr<RawlogWriter> writer_;  ///< null while the recording is off
   bool is_requested_ = false;             ///< the current or last part is of openNext()
   bool is_new_part_ = false;              ///< no step of the part has been written
+  ChangedObjects objects_;                ///< of the step recorded last
   std::string failure_;
   std::optional<std::uint64_t> last_step_;  ///< recorded
   std::filesystem::path file_, previous_file_;

@@ -54,7 +54,7 @@ class PoseImages : public ImageSource {
 
 std::string nameOf(std::uint32_t robot) { return "r" + std::to_string(robot); }
 
-/// Three rows of robots, with walls and gold between the rows.
+/// Three rows of robots with movable boxes in the rows, and walls and gold between them.
 World randomWorld(Rng& rng) {
   World world = emptyWorld(4);
   world.communication = {
@@ -67,6 +67,9 @@ World randomWorld(Rng& rng) {
     for (int i = 0; i < 3; ++i) addWall(world, rng.uniform(-3, 3), y_m, rng.uniform(0.1, 1.5), 0.1);
   }
   addGold(world, rng.uniform(-3, 3), 1.5, 0.1);
+  addBox(world, {-1.25, -2.5, 0.3}, 0.4, 0.2, {.mass_kg = 2});
+  addBox(world, {1.25, 0, 0}, 0.3, 0.3, {.mass_kg = 1, .friction = 0.02, .restitution = 0.7});
+  addBox(world, {-1.25, 2.5, 1}, 0.5, 0.1, {.mass_kg = 8});
   for (std::uint32_t i = 0; i < ProbeRun::kRobots; ++i) {
     RobotPlacement placement;
     placement.name = nameOf(i);

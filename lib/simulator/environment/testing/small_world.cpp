@@ -21,6 +21,13 @@ void addWall(World& world, double x_m, double y_m, double length_m, double width
   world.objects.push_back(wall);
 }
 
+void addBox(World& world, const mrpt::math::TPose2D& at, double length_m, double width_m, const Movable& movable) {
+  addWall(world, at.x, at.y, length_m, width_m, at.phi);
+  WorldObject& box = world.objects.back();
+  box.name = "box" + std::to_string(world.objects.size() - 1);
+  box.movable = movable;
+}
+
 void addGold(World& world, double x_m, double y_m, double radius_m) {
   WorldObject gold;
   gold.name = "gold" + std::to_string(world.objects.size());

@@ -11,6 +11,9 @@ namespace robosim {
 World emptyWorld(double half_m);
 void addWall(World& world, double x_m, double y_m, double length_m, double width_m, double turned_rad = 0);
 
+/// Adds a box that robots push.
+void addBox(World& world, const mrpt::math::TPose2D& at, double length_m, double width_m, const Movable& movable = {});
+
 /// Adds a hot pillar.
 void addGold(World& world, double x_m, double y_m, double radius_m = 0.2);
 

@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "dynamics/group_moment.h"
+
+namespace robosim {
+
+/// The impulses of a part of a step: bodies that touch and approach each other bounce or stop (Pushing, 2).
+class Impulses {
+ public:
+  /// @param from where the bodies are
+  /// @param robots_to where the robots are at the end of the part, after duration_s
+  Impulses(const PushingGroup& group, const GroupMoment& from, const std::vector<mrpt::math::TPoint2D>& robots_to,
+           double duration_s);
+
+  /// Changes the speeds of objects. None of them has more energy afterwards than robots have given.
+  /// @param pushing set to 1 for each pair that has exchanged impulses
+  /// @param pushed set to 1 for each object that has got one
+  void exchange(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushing,
+                std::vector<std::uint8_t>& pushed);
+
+ private:
+  struct Touch {
+    std::size_t pair;
+    Contact contact;
+    double impulse_ns[2]{};
+    double mobility[2];
+    mrpt::math::TPoint2D middle;  ///< of the points that touch
+    double mobility_of_middle;
+  };
+
+  void findTouches();
+  void bounce(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushing,
+              std::vector<std::uint8_t>& pushed) const;
+  void stopApproaches(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushed);
+  mrpt::math::TPoint2D velocityAt(const std::vector<ObjectMotion>& objects, PushingGroup::Pair::With kind,
+                                  std::uint32_t body, const mrpt::math::TPoint2D& point) const;
+  double separation(const std::vector<ObjectMotion>& objects, const Touch& touch, const mrpt::math::TPoint2D& at) const;
+  void apply(const Touch& touch, const mrpt::math::TPoint2D& at, double impulse_ns, std::vector<ObjectMotion>& objects,
+             std::vector<std::uint8_t>& pushed) const;
+  double restitutionOf(const PushingGroup::Pair& pair) const;
+
+  const PushingGroup& group_;
+  const GroupMoment& from_;
+  const std::vector<mrpt::math::TPoint2D>& robots_to_;
+  double duration_s_;
+  std::vector<Touch> touches_;
+};
+
+}  // namespace robosim

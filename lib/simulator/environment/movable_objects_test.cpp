@@ -1,0 +1,191 @@
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "environment/environment.h"
+#include "environment/testing/small_world.h"
+
+namespace robosim {
+namespace {
+
+/// A square of 8 m with a box of 0.4 m ahead of a disc of 0.25 m.
+std::unique_ptr<Environment> boxAheadOfRobot(const std::function<void(World&)>& change = {}) {
+  World world = emptyWorld(4);
+  addWall(world, 0, 3, 1, 0.2);
+  addBox(world, {1, 0, 0}, 0.4, 0.4, {.mass_kg = 2});
+  if (change) change(world);
+  Fleet fleet;
+  addDisc(world, fleet, "robot", {0, 0, 0});
+  return std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
+}
+
+void drive(Environment& environment, int steps, double turn_radps = 0) {
+  for (int i = 0; i < steps; ++i) {
+    environment.setCommand(0, {.speed_mps = 0.5, .turn_radps = turn_radps});
+    environment.step();
+  }
+}
+
+const mrpt::math::TPose2D& placeOf(const Environment& environment, std::size_t object) {
+  return environment.objects()[object].body.world_from_body;
+}
+
+TEST(MovableObjects, ArePushedByARobotThatIsNotStalled) {
+  const auto environment = boxAheadOfRobot();
+  drive(*environment, 40);
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 2, 1e-12);
+  EXPECT_NEAR(placeOf(*environment, 1).x, 2 + 0.25 + 0.2, 1e-5);
+  EXPECT_EQ(environment->state().stalls, 0u);
+  EXPECT_EQ(placeOf(*environment, 0), environment->world().objects[0].body.world_from_body) << "the wall";
+  drive(*environment, 40);
+  EXPECT_TRUE(environment->state().stalled[0]) << "the box is at the edge of the surface";
+  EXPECT_NEAR(placeOf(*environment, 1).x, 3.8, 1e-4);
+}
+
+TEST(MovableObjects, AreSensedWhereTheyAre) {
+  // A world with the box where it was pushed to makes the same places free and occupied.
+  const auto pushed = boxAheadOfRobot();
+  drive(*pushed, 40);
+  const auto& at = placeOf(*pushed, 1);
+  EXPECT_NE(pushed->apply({"test", PlaceBody{"robot", at.x, at.y}}).find("overlap 'box1'"), std::string::npos);
+  EXPECT_EQ(pushed->apply({"test", PlaceBody{"robot", 1, 0}}), "") << "where the box was";
+}
+
+TEST(MovableObjects, AreInTheDigest) {
+  const auto digest = [](double mass_kg) {
+    const auto environment = boxAheadOfRobot([&](World& world) {
+      world.objects[1].movable = Movable{mass_kg, 0.1, 0.5};
+    });
+    drive(*environment, 30, 0.1);
+    return environment->digest();
+  };
+  EXPECT_EQ(digest(2), digest(2));
+  EXPECT_NE(digest(2), digest(2000)) << "the robot is blocked";
+}
+
+TEST(MovableObjects, ContinueFromASavedState) {
+  const auto first = boxAheadOfRobot([](World& world) { world.objects[1].movable = Movable{1, 0.01, 1}; });
+  drive(*first, 8, 0.2);
+  const State saved = first->state();
+  EXPECT_FALSE(saved.object_speeds[0].isAtRest());
+  drive(*first, 20, 0.2);
+  const auto second = boxAheadOfRobot([](World& world) { world.objects[1].movable = Movable{1, 0.01, 1}; });
+  drive(*second, 3, -0.5);
+  second->restore(saved);
+  drive(*second, 20, 0.2);
+  EXPECT_EQ(second->state(), first->state());
+}
+
+TEST(MovableObjects, KeepTheirSpeedWhenAnotherIsMovedAndLoseTheirOwnWhenTheyAre) {
+  const auto environment = boxAheadOfRobot([](World& world) {
+    world.objects[1].movable = Movable{1, 0.01, 1};
+    addBox(world, {-2, -2, 0}, 0.4, 0.4);
+  });
+  drive(*environment, 8);
+  const ObjectSpeed speed = environment->state().object_speeds[0];
+  EXPECT_GT(speed.vx_mps, 0);
+  EXPECT_EQ(environment->apply({"test", RemoveBody{"box2"}}), "");
+  EXPECT_EQ(environment->state().object_speeds, std::vector{speed});
+  EXPECT_EQ(environment->apply({"test", PlaceBody{"box1", -2, -2}}), "");
+  EXPECT_TRUE(environment->state().object_speeds[0].isAtRest());
+}
+
+TEST(MovableObjects, MayNotBePlacedAcrossTheEdgeOfTheSurface) {
+  const auto environment = boxAheadOfRobot();
+  EXPECT_EQ(environment->apply({"test", PlaceBody{"wall0", 3.9, 0}}), "") << "a stationary one may reach over it";
+  EXPECT_NE(environment->apply({"test", PlaceBody{"box1", -3.9, 0}}).find("would not be on the surface"),
+            std::string::npos);
+}
+
+/// Robots that drive about among boxes and balls, in rows.
+std::unique_ptr<Environment> crowd(std::uint64_t seed, int threads) {
+  Rng rng(seed);
+  World world = emptyWorld(4);
+  Fleet fleet;
+  int robots = 0;
+  for (int row = 0; row < 7; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      const double x_m = column - 3 + rng.uniform(-0.2, 0.2), y_m = row - 3 + rng.uniform(-0.2, 0.2);
+      const double heading_rad = rng.uniform(-3, 3);
+      const auto kind = rng.below(5);
+      if (kind == 0) continue;
+      if (kind == 1) {
+        addDisc(world, fleet, "r" + std::to_string(robots++), {x_m, y_m, heading_rad}, 0.2);
+      } else if (kind == 2) {
+        addBox(world, {x_m, y_m, heading_rad}, rng.uniform(0.1, 0.5), rng.uniform(0.1, 0.25),
+               {.mass_kg = rng.uniform(0.5, 5), .friction = rng.uniform(0.1, 0.7)});
+      } else {
+        addBox(world, {x_m, y_m, 0}, 0.1, 0.1, {.mass_kg = 0.4, .friction = 0.02, .restitution = 0.8});
+        world.objects.back().body.shape = Cylinder{rng.uniform(0.05, 0.2)};
+      }
+    }
+  }
+  EnvironmentOptions options;
+  options.threads = threads;
+  return std::make_unique<Environment>(std::move(world), std::move(fleet), options);
+}
+
+void wander(Environment& environment, std::uint64_t seed) {
+  for (std::uint32_t r = 0; r < environment.robotCount(); ++r) {
+    Rng rng(seed, RandomPurpose::test, r, 0, environment.time().step / 10);
+    environment.setCommand(r, {.speed_mps = rng.uniform(-0.5, 1), .turn_radps = rng.uniform(-1, 1)});
+  }
+  environment.step();
+}
+
+/// The largest overlap of two bodies by which their distance is below the sum of their extents [m].
+double deepestOverlap(const Environment& environment) {
+  std::vector<Solid> solids;
+  for (const auto& object : environment.objects()) solids.push_back(object.body.solid());
+  for (std::size_t r = 0; r < environment.robotCount(); ++r) {
+    const auto& pose = environment.state().world_from_robot[r];
+    solids.push_back({Circle{{pose.x, pose.y}, environment.fleet().robots[r].info.radius_m}, {0, 0.3}});
+  }
+  double deepest_m = 0;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!overlap(solids[i], solids[j])) continue;
+      // Shrunk by a nanometre, they must not.
+      const auto shrunk = [](Solid solid) {
+        if (auto* circle = std::get_if<Circle>(&solid.outline)) circle->radius_m -= 1e-9;
+        if (auto* box = std::get_if<OrientedBox>(&solid.outline)) box->half_length_m -= 1e-9, box->half_width_m -= 1e-9;
+        return solid;
+      };
+      deepest_m = overlap(shrunk(solids[i]), shrunk(solids[j])) ? 1 : std::max(deepest_m, 1e-9);
+    }
+  }
+  return deepest_m;
+}
+
+TEST(MovableObjects, NeverOverlapAmongManyRobots) {
+  double moved_m = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const auto environment = crowd(seed, 1);
+    for (int step = 0; step < 100; ++step) {
+      wander(*environment, seed);
+      ASSERT_LE(deepestOverlap(*environment), 1e-9) << seed << " in step " << step;
+    }
+    for (std::size_t i = 0; i < environment->objects().size(); ++i) {
+      const auto& start = environment->world().objects[i].body.world_from_body;
+      moved_m += std::hypot(placeOf(*environment, i).x - start.x, placeOf(*environment, i).y - start.y);
+    }
+  }
+  EXPECT_GT(moved_m, 50) << "of all objects together";
+}
+
+TEST(MovableObjects, MakeTheSameRunForAnyNumberOfThreads) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    std::string of_one;
+    for (const int threads : {1, 2, 3, 8}) {
+      const auto environment = crowd(seed, threads);
+      for (int step = 0; step < 60; ++step) wander(*environment, seed);
+      if (threads == 1) of_one = environment->digest();
+      EXPECT_EQ(environment->digest(), of_one) << seed << ", " << threads << " threads";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace robosim
