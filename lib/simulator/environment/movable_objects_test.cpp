@@ -67,7 +67,7 @@ TEST(MovableObjects, AreInTheDigest) {
 
 TEST(MovableObjects, ContinueFromASavedState) {
   const auto first = boxAheadOfRobot([](World& world) { world.objects[1].movable = Movable{1, 0.01, 1}; });
-  drive(*first, 8, 0.2);
+  drive(*first, 14);
   const State saved = first->state();
   EXPECT_FALSE(saved.object_speeds[0].isAtRest());
   drive(*first, 20, 0.2);
@@ -83,7 +83,7 @@ TEST(MovableObjects, KeepTheirSpeedWhenAnotherIsMovedAndLoseTheirOwnWhenTheyAre)
     world.objects[1].movable = Movable{1, 0.01, 1};
     addBox(world, {-2, -2, 0}, 0.4, 0.4);
   });
-  drive(*environment, 8);
+  drive(*environment, 14);
   const ObjectSpeed speed = environment->state().object_speeds[0];
   EXPECT_GT(speed.vx_mps, 0);
   EXPECT_EQ(environment->apply({"test", RemoveBody{"box2"}}), "");

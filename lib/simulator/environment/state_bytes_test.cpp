@@ -113,7 +113,7 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   std::string newer = saved.bytes;
   newer[16] = 7;
   EXPECT_EQ(errorOf(model, sealed(newer)),
-            "the saved state has version 7 of the format, and this program reads version 6; use the version of RoboSim "
+            "the saved state has version 8 of the format, and this program reads version 7; use the version of RoboSim "
             "that saved it");
   Model other = model;
   other.seed = 2;
