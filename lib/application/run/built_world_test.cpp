@@ -19,7 +19,7 @@ TEST(BuiltWorld, RunsAsItsWrittenFile) {
   gold.center_z_m = 0.25;
   gold.height_m = 0.5;
   gold.heat_celsius = 20;
-  world.objects.push_back({.name = "Gold", .body = gold, .stationary = true, .line = {}});
+  world.objects.push_back({.name = "Gold", .body = gold, .line = {}});
   Scatter scouts;
   scouts.count = 10;
   scouts.gap_m = 0.5;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include <mrpt/math/TPoint2D.h>
@@ -15,6 +16,11 @@ constexpr double kTouch_m = 3 * kContactGap_m;
 struct GroupMoment {
   std::vector<ObjectMotion> objects;
   std::vector<mrpt::math::TPoint2D> robots;  ///< centres
+};
+
+/// Bodies of a group that may touch each other in a part of a step, and no others.
+struct Island {
+  std::vector<std::uint32_t> objects, robots, pairs;  ///< ascending indices of PushingGroup's
 };
 
 /// What an impulse along the normal of a contact does to one of its bodies: how fast the contact's points move along

@@ -24,10 +24,10 @@ TPoint2D middleOf(const Contact& contact) {
 
 }  // namespace
 
-Impulses::Impulses(const PushingGroup& group, const GroupMoment& from, const std::vector<TPoint2D>& robots_to,
-                   double duration_s)
+Impulses::Impulses(const PushingGroup& group, const Island& island, const GroupMoment& from,
+                   const std::vector<TPoint2D>& robots_to, double duration_s)
     : group_(group), from_(from), robots_to_(robots_to), duration_s_(duration_s) {
-  findTouches();
+  findTouches(island);
 }
 
 void Impulses::exchange(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushing,
@@ -39,8 +39,8 @@ void Impulses::exchange(std::vector<ObjectMotion>& objects, std::vector<std::uin
   }
 }
 
-void Impulses::findTouches() {
-  for (std::size_t p = 0; p < group_.pairs.size(); ++p) {
+void Impulses::findTouches(const Island& island) {
+  for (const std::uint32_t p : island.pairs) {
     const auto& pair = group_.pairs[p];
     if (pair.with == With::two_robots || !mayTouch(group_, from_, pair, kTouch_m)) continue;
     const Contact contact = contactOf(group_, from_, pair);

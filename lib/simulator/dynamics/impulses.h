@@ -9,10 +9,11 @@ namespace robosim {
 /// The impulses of a part of a step: bodies that touch and approach each other bounce or stop (Pushing, 2).
 class Impulses {
  public:
+  /// @param island must outlive this object, as group and from must
   /// @param from where the bodies are
   /// @param robots_to where the robots are at the end of the part, after duration_s
-  Impulses(const PushingGroup& group, const GroupMoment& from, const std::vector<mrpt::math::TPoint2D>& robots_to,
-           double duration_s);
+  Impulses(const PushingGroup& group, const Island& island, const GroupMoment& from,
+           const std::vector<mrpt::math::TPoint2D>& robots_to, double duration_s);
 
   /// Changes the speeds of objects. None of them has more energy afterwards than robots have given.
   /// @param pushing set to 1 for each pair that has exchanged impulses
@@ -30,7 +31,7 @@ class Impulses {
     double mobility_of_middle;
   };
 
-  void findTouches();
+  void findTouches(const Island& island);
   void bounce(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushing,
               std::vector<std::uint8_t>& pushed) const;
   void stopApproaches(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushed);

@@ -7,6 +7,7 @@
 #include "base/portable_math.h"
 #include "dynamics/group_moment.h"
 #include "dynamics/impulses.h"
+#include "dynamics/islands.h"
 #include "dynamics/sets.h"
 #include "dynamics/shifts.h"
 #include "geometry/shapes/planar_vector.h"
@@ -28,12 +29,22 @@ class PushingStep {
     for (const auto& robot : group.robots) stops_.push_back(robot.path->end_fraction);
     for (const auto& object : group.objects) from_.objects.push_back(*object.motion);
     from_.robots.resize(stops_.size());
+    to_ = from_;
     start_ = from_.objects;
   }
 
   void run() {
     const int parts = partCount();
-    for (int i = 0; i < parts; ++i) advance(i / double(parts), (i + 1) / double(parts), 0);
+    for (int i = 0; i < parts; ++i) {
+      const double begin = i / static_cast<double>(parts);
+      const double end = (i + 1) / static_cast<double>(parts);
+      placeRobots(begin, end);
+      part_start_ = from_.objects;
+      part_reach_m_ = islandReach(group_, (end - begin) * period_s_);
+      for (const Island& island : islandsOf(group_, from_, to_.robots, (end - begin) * period_s_)) {
+        advance(island, begin, end, 0);
+      }
+    }
     for (std::size_t k = 0; k < from_.objects.size(); ++k) *group_.objects[k].motion = from_.objects[k];
     for (std::size_t r = 0; r < stops_.size(); ++r) group_.robots[r].path->end_fraction = stops_[r];
   }
@@ -50,46 +61,50 @@ class PushingStep {
     return static_cast<int>(std::clamp(std::max(per_time, per_way), 1.0, 1000.0));
   }
 
+  void placeRobots(double begin, double end) {
+    for (std::size_t r = 0; r < stops_.size(); ++r) placeRobot(r, begin, end);
+  }
+  void placeRobot(std::size_t r, double begin, double end) {
+    Path path = *group_.robots[r].path;
+    path.end_fraction = stops_[r];
+    from_.robots[r] = path.centerAt(begin);
+    to_.robots[r] = path.centerAt(end);
+  }
+
   /// @param begin, end of a part, as fractions of the step
-  void advance(double begin, double end, int halvings) {
-    Result result = tryPart(begin, end);
-    while (result == Result::robots_blocked) result = tryPart(begin, end);
+  void advance(const Island& island, double begin, double end, int halvings) {
+    Result result = tryPart(island, begin, end);
+    while (result == Result::robots_blocked) result = tryPart(island, begin, end);
     if (result == Result::overlap && halvings < Pushing::kHalvings) {
       const double middle = (begin + end) / 2;
-      advance(begin, middle, halvings + 1);
-      advance(middle, end, halvings + 1);
+      advance(island, begin, middle, halvings + 1);
+      advance(island, middle, end, halvings + 1);
       return;
     }
-    if (result == Result::overlap) holdJammed(begin);
-    std::swap(from_, to_);
+    if (result == Result::overlap) holdJammed(island, begin);
+    for (const auto i : island.objects) from_.objects[i] = to_.objects[i];
   }
 
   /// Computes to_.
-  Result tryPart(double begin, double end) {
+  Result tryPart(const Island& island, double begin, double end) {
     const double duration_s = (end - begin) * period_s_;
-    to_ = from_;
-    for (std::size_t r = 0; r < stops_.size(); ++r) {
-      from_.robots[r] = robotAt(r, begin);
-      to_.robots[r] = robotAt(r, end);
+    for (const auto r : island.robots) placeRobot(r, begin, end);
+    for (const auto p : island.pairs) pushing_[p] = 0;
+    for (const auto i : island.objects) {
+      to_.objects[i] = from_.objects[i];
+      pushed_[i] = 0;
+      decelerate(i, duration_s);
     }
-    std::fill(pushing_.begin(), pushing_.end(), 0);
-    std::fill(pushed_.begin(), pushed_.end(), 0);
-    for (std::size_t i = 0; i < to_.objects.size(); ++i) decelerate(i, duration_s);
-    Impulses(group_, from_, to_.robots, duration_s).exchange(to_.objects, pushing_, pushed_);
-    for (std::size_t i = 0; i < to_.objects.size(); ++i) {
+    Impulses(group_, island, from_, to_.robots, duration_s).exchange(to_.objects, pushing_, pushed_);
+    for (const auto i : island.objects) {
       limitSpeed(to_.objects[i]);
       moveOn(i, duration_s);
     }
-    shiftApart(group_, to_, pushing_);
-    if (firstOverlap() != group_.pairs.size()) return Result::overlap;
-    return blockOverloaded(begin) ? Result::robots_blocked : Result::valid;
+    shiftApart(group_, island, to_, pushing_);
+    if (firstOverlap(island)) return Result::overlap;
+    return blockOverloaded(island, begin) ? Result::robots_blocked : Result::valid;
   }
 
-  TPoint2D robotAt(std::size_t r, double fraction) const {
-    Path path = *group_.robots[r].path;
-    path.end_fraction = stops_[r];
-    return path.centerAt(fraction);
-  }
   bool isAtRest(std::size_t r) const { return from_.robots[r] == to_.robots[r]; }
 
   void decelerate(std::size_t i, double duration_s) {
@@ -127,33 +142,39 @@ class PushingStep {
     pose.phi += mean.turn_radps * duration_s;
   }
 
-  /// The first pair that has come too near; the number of pairs if there is none. An object that has moved too far
-  /// counts as too near to its first neighbour.
-  std::size_t firstOverlap() const {
-    const auto is_too_near = [&](const PushingGroup::Pair& pair) {
-      if (pair.with != With::two_robots && isTooFar(pair.first)) return true;
-      if (pair.with == With::object && isTooFar(pair.second)) return true;
-      if (!mayTouch(group_, to_, pair, kGapMin_m)) return false;
-      const double gap_m = contactOf(group_, to_, pair).gap();
-      return gap_m < kGapMin_m && gap_m < contactOf(group_, from_, pair).gap() - kRounding_m;
-    };
-    const auto found = std::find_if(group_.pairs.begin(), group_.pairs.end(), is_too_near);
-    return static_cast<std::size_t>(found - group_.pairs.begin());
+  /// The first pair that has come too near; null if there is none. An object that has moved too far counts as too near
+  /// to its first neighbour.
+  const PushingGroup::Pair* firstOverlap(const Island& island) const {
+    for (const auto p : island.pairs) {
+      const PushingGroup::Pair& pair = group_.pairs[p];
+      if (isTooNear(pair)) return &pair;
+    }
+    return nullptr;
   }
 
+  bool isTooNear(const PushingGroup::Pair& pair) const {
+    if (pair.with != With::two_robots && isTooFar(pair.first)) return true;
+    if (pair.with == With::object && isTooFar(pair.second)) return true;
+    if (!mayTouch(group_, to_, pair, kGapMin_m)) return false;
+    const double gap_m = contactOf(group_, to_, pair).gap();
+    return gap_m < kGapMin_m && gap_m < contactOf(group_, from_, pair).gap() - kRounding_m;
+  }
+
+  /// Farther than the pairs of the group and of its islands allow for.
   bool isTooFar(std::uint32_t i) const {
-    const auto& now = to_.objects[i].world_from_object;
-    const auto& then = start_[i].world_from_object;
-    const TPoint2D way(now.x - then.x, now.y - then.y);
-    return !(dot(way, way) <= group_.reach_m * group_.reach_m);
+    const auto is_beyond = [&](const ObjectMotion& then, double reach_m) {
+      const auto& now = to_.objects[i].world_from_object;
+      return !isWithin({now.x, now.y}, {then.world_from_object.x, then.world_from_object.y}, reach_m);
+    };
+    return is_beyond(start_[i], group_.reach_m) || is_beyond(part_start_[i], part_reach_m_);
   }
 
   std::size_t nodeOf(std::size_t robot) const { return to_.objects.size() + robot; }
 
   /// Bodies that push each other in this part. Stationary solids and robots at rest connect nothing.
-  Sets pushedTogether() const {
+  Sets pushedTogether(const Island& island) const {
     Sets sets(to_.objects.size() + stops_.size());
-    for (std::size_t p = 0; p < group_.pairs.size(); ++p) {
+    for (const auto p : island.pairs) {
       const auto& pair = group_.pairs[p];
       if (!pushing_[p]) continue;
       if (pair.with == With::object) sets.join(pair.first, pair.second);
@@ -163,17 +184,18 @@ class PushingStep {
   }
 
   /// 4 of the description. @return whether a robot is blocked that was not before
-  bool blockOverloaded(double at) {
-    if (std::find(pushing_.begin(), pushing_.end(), 1) == pushing_.end()) return false;
-    Sets sets = pushedTogether();
+  bool blockOverloaded(const Island& island, double at) {
+    const auto pushes = [&](std::uint32_t p) { return pushing_[p] != 0 && group_.pairs[p].with == With::robot; };
+    if (std::none_of(island.pairs.begin(), island.pairs.end(), pushes)) return false;
+    Sets sets = pushedTogether(island);
     std::vector<double> needed_j(to_.objects.size() + stops_.size()), available_j(needed_j.size());
-    for (std::size_t i = 0; i < to_.objects.size(); ++i) needed_j[sets.of(i)] += neededWork(i);
-    for (std::size_t r = 0; r < stops_.size(); ++r) {
+    for (const auto i : island.objects) needed_j[sets.of(i)] += neededWork(i);
+    for (const auto r : island.robots) {
       const TPoint2D way = to_.robots[r] - from_.robots[r];
       available_j[sets.of(nodeOf(r))] += group_.robots[r].disc->push_max_n * std::sqrt(dot(way, way));
     }
     constexpr double kRoundingShare = 1e-6;
-    return stopRobots(at, [&](std::size_t r) {
+    return stopRobots(island, at, [&](std::size_t r) {
       const std::size_t set = sets.of(nodeOf(r));
       return needed_j[set] > available_j[set] * (1 + kRoundingShare);
     });
@@ -194,9 +216,9 @@ class PushingStep {
   }
 
   template <typename Blocked>
-  bool stopRobots(double at, const Blocked& is_blocked) {
+  bool stopRobots(const Island& island, double at, const Blocked& is_blocked) {
     bool has_stopped = false;
-    for (std::size_t r = 0; r < stops_.size(); ++r) {
+    for (const auto r : island.robots) {
       if (isAtRest(r) || !is_blocked(r)) continue;
       stops_[r] = at;
       has_stopped = true;
@@ -205,20 +227,19 @@ class PushingStep {
   }
 
   /// The end of 5 of the description: what pushes each other where bodies overlap stays where it is.
-  void holdJammed(double at) {
-    for (std::size_t p = firstOverlap(); p < group_.pairs.size(); p = firstOverlap()) {
-      const auto& pair = group_.pairs[p];
-      Sets sets = pushedTogether();
-      const std::size_t first = sets.of(pair.with == With::two_robots ? nodeOf(pair.first) : std::size_t{pair.first});
+  void holdJammed(const Island& island, double at) {
+    while (const PushingGroup::Pair* const pair = firstOverlap(island)) {
+      Sets sets = pushedTogether(island);
+      const std::size_t first = sets.of(pair->with == With::two_robots ? nodeOf(pair->first) : pair->first);
       std::size_t second = first;
-      if (pair.with == With::object) second = sets.of(pair.second);
-      if (pair.with == With::robot || pair.with == With::two_robots) second = sets.of(nodeOf(pair.second));
+      if (pair->with == With::object) second = sets.of(pair->second);
+      if (pair->with == With::robot || pair->with == With::two_robots) second = sets.of(nodeOf(pair->second));
       const auto is_held = [&](std::size_t node) { return sets.of(node) == first || sets.of(node) == second; };
-      for (std::size_t i = 0; i < to_.objects.size(); ++i) {
+      for (const auto i : island.objects) {
         if (is_held(i)) to_.objects[i] = {{}, from_.objects[i].world_from_object};
       }
-      stopRobots(at, [&](std::size_t r) { return is_held(nodeOf(r)); });
-      for (std::size_t r = 0; r < stops_.size(); ++r) {
+      stopRobots(island, at, [&](std::size_t r) { return is_held(nodeOf(r)); });
+      for (const auto r : island.robots) {
         if (is_held(nodeOf(r))) to_.robots[r] = from_.robots[r];
       }
     }
@@ -227,8 +248,10 @@ class PushingStep {
   PushingGroup& group_;
   double period_s_;
   std::vector<double> stops_;          ///< fraction of its path at which each robot ends
-  std::vector<ObjectMotion> start_;    ///< of the step
-  GroupMoment from_, to_;              ///< at both ends of this part
+  std::vector<ObjectMotion> start_;       ///< of the step
+  std::vector<ObjectMotion> part_start_;  ///< of the part
+  double part_reach_m_ = 0;
+  GroupMoment from_, to_;              ///< at both ends of the part
   std::vector<std::uint8_t> pushing_;  ///< by pair, in this part
   std::vector<std::uint8_t> pushed_;   ///< by object: has got an impulse in this part
 };

@@ -37,7 +37,8 @@ struct PushingGroup {
 /// Moves the objects of a group, and stops its robots where they are blocked, for a time step (doc/moving_objects.md).
 /// No two of its bodies overlap afterwards if none did before.
 ///
-/// The step is divided into equal parts, in which the robots drive on along their paths. In each part
+/// The step is divided into equal parts, in which the robots drive on along their paths. In each part, bodies that may
+/// touch form islands, each of which is computed alone:
 ///  1. friction decelerates each object;
 ///  2. bodies that touch and approach each other exchange impulses along the normal of their contact, without friction:
 ///     first those that bounce, then all until none approach (Catto, "Iterative dynamics with temporal coherence",

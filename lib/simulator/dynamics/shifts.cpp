@@ -47,10 +47,11 @@ void shift(const PushingGroup& group, const PushingGroup::Pair& pair, const Cont
 
 }  // namespace
 
-void shiftApart(const PushingGroup& group, GroupMoment& moment, std::vector<std::uint8_t>& pushing) {
+void shiftApart(const PushingGroup& group, const Island& island, GroupMoment& moment,
+                std::vector<std::uint8_t>& pushing) {
   for (int sweep = 0; sweep < kShiftSweepsMax; ++sweep) {
     bool is_apart = true;
-    for (std::size_t p = 0; p < group.pairs.size(); ++p) {
+    for (const std::uint32_t p : island.pairs) {
       const auto& pair = group.pairs[p];
       if (pair.with == With::two_robots || !mayTouch(group, moment, pair, kContactGap_m)) continue;
       const Contact contact = contactOf(group, moment, pair);
