@@ -13,17 +13,6 @@ using With = PushingGroup::Pair::With;
 
 With kindOfFirst(const PushingGroup::Pair& pair) { return pair.with == With::two_robots ? With::robot : With::object; }
 
-Outline outlineOf(const PushingGroup& group, const GroupMoment& moment, With kind, std::uint32_t i) {
-  switch (kind) {
-    case With::object:
-      return group.objects[i].body->outlineAt(moment.objects[i].world_from_object);
-    case With::stationary:
-      return group.stationary[i];
-    default:
-      return Circle{moment.robots[i], group.robots[i].disc->radius_m};
-  }
-}
-
 TPoint2D centerOf(const GroupMoment& moment, With kind, std::uint32_t i) {
   if (kind != With::object) return moment.robots[i];
   const auto& pose = moment.objects[i].world_from_object;
@@ -36,9 +25,24 @@ double coverOf(const PushingGroup& group, With kind, std::uint32_t i) {
 
 }  // namespace
 
+void outline(const PushingGroup& group, std::uint32_t object, GroupMoment& moment) {
+  moment.outlines[object] = group.objects[object].body->outlineAt(moment.objects[object].world_from_object);
+}
+
 Contact contactOf(const PushingGroup& group, const GroupMoment& moment, const PushingGroup::Pair& pair) {
-  return contactOf(outlineOf(group, moment, kindOfFirst(pair), pair.first),
-                   outlineOf(group, moment, pair.with, pair.second));
+  const auto disc = [&](std::uint32_t robot) -> Outline {
+    return Circle{moment.robots[robot], group.robots[robot].disc->radius_m};
+  };
+  switch (pair.with) {
+    case With::object:
+      return contactOf(moment.outlines[pair.first], moment.outlines[pair.second]);
+    case With::stationary:
+      return contactOf(moment.outlines[pair.first], group.stationary[pair.second]);
+    case With::robot:
+      return contactOf(moment.outlines[pair.first], disc(pair.second));
+    default:
+      return contactOf(disc(pair.first), disc(pair.second));
+  }
 }
 
 bool mayTouch(const PushingGroup& group, const GroupMoment& moment, const PushingGroup::Pair& pair, double gap_m) {

@@ -15,6 +15,7 @@ constexpr double kTouch_m = 3 * kContactGap_m;
 /// Where the bodies of a group are at a time of a step, and how the objects move.
 struct GroupMoment {
   std::vector<ObjectMotion> objects;
+  std::vector<Outline> outlines;             ///< of the objects; outline() after a change of a pose
   std::vector<mrpt::math::TPoint2D> robots;  ///< centres
 };
 
@@ -31,6 +32,9 @@ struct Lever {
   double arm_m[2]{};    ///< of the contact's points
   double mobility(int i, int j) const { return per_mass + per_turn * arm_m[i] * arm_m[j]; }
 };
+
+/// Makes the outline of an object that of its pose.
+void outline(const PushingGroup& group, std::uint32_t object, GroupMoment& moment);
 
 /// The contact of a pair, from its first body to its second.
 Contact contactOf(const PushingGroup& group, const GroupMoment& moment, const PushingGroup::Pair& pair);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/convergence.h"
 #include "geometry/shapes/planar_vector.h"
 
 namespace robosim {
@@ -13,7 +14,7 @@ using With = PushingGroup::Pair::With;
 
 constexpr int kBouncesMax = 32, kImpulseSweepsMax = 500;
 /// Below this, two bodies do not approach each other [m/s].
-constexpr double kApproachMin_mps = 1e-10;
+constexpr double kApproachMin_mps = 1e-9;
 
 TPoint2D middleOf(const Contact& contact) {
   const auto& points = contact.points;
@@ -45,17 +46,19 @@ void Impulses::findTouches(const Island& island) {
     if (pair.with == With::two_robots || !mayTouch(group_, from_, pair, kTouch_m)) continue;
     const Contact contact = contactOf(group_, from_, pair);
     if (contact.gap() > kTouch_m) continue;
-    const auto mobility_of = [&](const Contact& of, int i) {
-      return leverOf(group_, from_, With::object, pair.first, of).mobility(i, i) +
-             leverOf(group_, from_, pair.with, pair.second, of).mobility(i, i);
-    };
     Contact of_middle = contact;
-    of_middle.points[0].at = middleOf(contact);
+    of_middle.points[0].at = of_middle.points[1].at = middleOf(contact);
+    const auto side = [&](With kind, std::uint32_t body) {
+      return Side{leverOf(group_, from_, kind, body, contact), leverOf(group_, from_, kind, body, of_middle)};
+    };
     touches_.push_back({.pair = p,
                         .contact = contact,
-                        .mobility = {mobility_of(contact, 0), mobility_of(contact, 1)},
-                        .middle = of_middle.points[0].at,
-                        .mobility_of_middle = mobility_of(of_middle, 0)});
+                        .first = side(With::object, pair.first),
+                        .second = side(pair.with, pair.second)});
+    if (pair.with == With::robot) {
+      const TPoint2D way = robots_to_[pair.second] - from_.robots[pair.second];
+      touches_.back().robot_mps = dot(way, contact.normal) / duration_s_;
+    }
   }
 }
 
@@ -67,9 +70,12 @@ void Impulses::bounce(std::vector<ObjectMotion>& objects, std::vector<std::uint8
     for (const Touch& touch : touches_) {
       const double restitution = restitutionOf(group_.pairs[touch.pair]);
       if (restitution == 0) continue;
-      const double speed = separation(objects, touch, touch.middle);
+      const Lever& first = touch.first.at_middle;
+      const Lever& second = touch.second.at_middle;
+      const double speed = separation(objects, touch, first, second, 0);
       if (speed > -Pushing::kBounceMin_mps) continue;
-      apply(touch, touch.middle, -(1 + restitution) * speed / touch.mobility_of_middle, objects, pushed);
+      const double mobility = first.mobility(0, 0) + second.mobility(0, 0);
+      apply(touch, first, second, 0, -(1 + restitution) * speed / mobility, objects, pushed);
       pushing[touch.pair] = 1;
       has_bounced = true;
     }
@@ -80,55 +86,51 @@ void Impulses::bounce(std::vector<ObjectMotion>& objects, std::vector<std::uint8
 /// Solves for the impulses after which no touching points approach each other (projected Gauss-Seidel). Each single
 /// change decreases the energy of objects among themselves.
 void Impulses::stopApproaches(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushed) {
+  Convergence progress;
   for (int sweep = 0; sweep < kImpulseSweepsMax; ++sweep) {
     double fastest_mps = 0;
     for (Touch& touch : touches_) {
+      const Lever& first = touch.first.at_points;
+      const Lever& second = touch.second.at_points;
       for (int i = 0; i < touch.contact.count; ++i) {
-        const Contact::Point& point = touch.contact.points[static_cast<std::size_t>(i)];
-        if (point.gap_m > kTouch_m) continue;
-        const double needed_ns = -separation(objects, touch, point.at) / touch.mobility[i];
+        if (touch.contact.points[static_cast<std::size_t>(i)].gap_m > kTouch_m) continue;
+        const double mobility = first.mobility(i, i) + second.mobility(i, i);
+        const double needed_ns = -separation(objects, touch, first, second, i) / mobility;
         const double impulse_ns = std::max(-touch.impulse_ns[i], needed_ns);
         if (impulse_ns == 0) continue;
         touch.impulse_ns[i] += impulse_ns;
-        apply(touch, point.at, impulse_ns, objects, pushed);
-        fastest_mps = std::max(fastest_mps, std::abs(impulse_ns) * touch.mobility[i]);
+        apply(touch, first, second, i, impulse_ns, objects, pushed);
+        fastest_mps = std::max(fastest_mps, std::abs(impulse_ns) * mobility);
       }
     }
-    if (fastest_mps <= kApproachMin_mps) return;
+    if (progress.isOver(fastest_mps <= kApproachMin_mps ? 0 : fastest_mps)) return;
   }
 }
 
-TPoint2D Impulses::velocityAt(const std::vector<ObjectMotion>& objects, With kind, std::uint32_t body,
-                              const TPoint2D& point) const {
-  if (kind == With::stationary) return {};
-  if (kind == With::robot) return (robots_to_[body] - from_.robots[body]) * (1 / duration_s_);
-  const ObjectMotion& motion = objects[body];
-  const TPoint2D arm(point.x - motion.world_from_object.x, point.y - motion.world_from_object.y);
-  return {motion.vx_mps - motion.turn_radps * arm.y, motion.vy_mps + motion.turn_radps * arm.x};
-}
-
-/// Speed at which the bodies of a contact move away from each other at a point.
-double Impulses::separation(const std::vector<ObjectMotion>& objects, const Touch& touch, const TPoint2D& at) const {
+/// Speed at which the bodies of a contact move away from each other at a point of the levers.
+double Impulses::separation(const std::vector<ObjectMotion>& objects, const Touch& touch, const Lever& first,
+                            const Lever& second, int point) const {
+  const auto along = [&](std::uint32_t i, const Lever& lever) {
+    const ObjectMotion& motion = objects[i];
+    return motion.vx_mps * touch.contact.normal.x + motion.vy_mps * touch.contact.normal.y +
+           motion.turn_radps * lever.arm_m[point];
+  };
   const auto& pair = group_.pairs[touch.pair];
-  return dot(velocityAt(objects, pair.with, pair.second, at) - velocityAt(objects, With::object, pair.first, at),
-             touch.contact.normal);
+  return (pair.with == With::object ? along(pair.second, second) : touch.robot_mps) - along(pair.first, first);
 }
 
-void Impulses::apply(const Touch& touch, const TPoint2D& at, double impulse_ns, std::vector<ObjectMotion>& objects,
-                     std::vector<std::uint8_t>& pushed) const {
-  const TPoint2D& normal = touch.contact.normal;
-  const auto push = [&](std::uint32_t i, double signed_ns) {
-    const MovableBody& body = *group_.objects[i].body;
+void Impulses::apply(const Touch& touch, const Lever& first, const Lever& second, int point, double impulse_ns,
+                     std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushed) const {
+  const auto push = [&](std::uint32_t i, const Lever& lever, double signed_ns) {
     ObjectMotion& motion = objects[i];
-    const TPoint2D arm(at.x - motion.world_from_object.x, at.y - motion.world_from_object.y);
-    motion.vx_mps += normal.x * signed_ns / body.mass_kg;
-    motion.vy_mps += normal.y * signed_ns / body.mass_kg;
-    motion.turn_radps += cross(arm, normal) * signed_ns / (body.mass_kg * body.turn_radius_m * body.turn_radius_m);
+    motion.vx_mps += touch.contact.normal.x * signed_ns * lever.per_mass;
+    motion.vy_mps += touch.contact.normal.y * signed_ns * lever.per_mass;
+    motion.turn_radps += lever.arm_m[point] * signed_ns * lever.per_turn;
     pushed[i] = 1;
   };
   const auto& pair = group_.pairs[touch.pair];
-  push(pair.first, -impulse_ns);
-  if (pair.with == With::object) push(pair.second, impulse_ns);
+  push(pair.first, first, -impulse_ns);
+  if (pair.with == With::object) push(pair.second, second, impulse_ns);
 }
 
 double Impulses::restitutionOf(const PushingGroup::Pair& pair) const {

@@ -22,24 +22,27 @@ class Impulses {
                 std::vector<std::uint8_t>& pushed);
 
  private:
+  /// A body's part in the contact, with the lever of the middle of the points that touch.
+  struct Side {
+    Lever at_points, at_middle;
+  };
   struct Touch {
-    std::size_t pair;
+    std::uint32_t pair;
     Contact contact;
+    Side first, second;
     double impulse_ns[2]{};
-    double mobility[2];
-    mrpt::math::TPoint2D middle;  ///< of the points that touch
-    double mobility_of_middle;
+    /// Speed of a robot along the normal.
+    double robot_mps = 0;
   };
 
   void findTouches(const Island& island);
   void bounce(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushing,
               std::vector<std::uint8_t>& pushed) const;
   void stopApproaches(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushed);
-  mrpt::math::TPoint2D velocityAt(const std::vector<ObjectMotion>& objects, PushingGroup::Pair::With kind,
-                                  std::uint32_t body, const mrpt::math::TPoint2D& point) const;
-  double separation(const std::vector<ObjectMotion>& objects, const Touch& touch, const mrpt::math::TPoint2D& at) const;
-  void apply(const Touch& touch, const mrpt::math::TPoint2D& at, double impulse_ns, std::vector<ObjectMotion>& objects,
-             std::vector<std::uint8_t>& pushed) const;
+  double separation(const std::vector<ObjectMotion>& objects, const Touch& touch, const Lever& first,
+                    const Lever& second, int point) const;
+  void apply(const Touch& touch, const Lever& first, const Lever& second, int point, double impulse_ns,
+             std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushed) const;
   double restitutionOf(const PushingGroup::Pair& pair) const;
 
   const PushingGroup& group_;

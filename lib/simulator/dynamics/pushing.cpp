@@ -27,7 +27,10 @@ class PushingStep {
   PushingStep(PushingGroup& group, double period_s)
       : group_(group), period_s_(period_s), pushing_(group.pairs.size()), pushed_(group.objects.size()) {
     for (const auto& robot : group.robots) stops_.push_back(robot.path->end_fraction);
-    for (const auto& object : group.objects) from_.objects.push_back(*object.motion);
+    for (const auto& object : group.objects) {
+      from_.objects.push_back(*object.motion);
+      from_.outlines.push_back(object.body->outlineAt(object.motion->world_from_object));
+    }
     from_.robots.resize(stops_.size());
     to_ = from_;
     start_ = from_.objects;
@@ -76,13 +79,29 @@ class PushingStep {
     Result result = tryPart(island, begin, end);
     while (result == Result::robots_blocked) result = tryPart(island, begin, end);
     if (result == Result::overlap && halvings < Pushing::kHalvings) {
+      // What is jammed already is so in the shortest part.
+      const double soon = begin + (end - begin) / (1 << Pushing::kHalvings);
+      if (halvings == 0 && tryPart(island, begin, soon) == Result::overlap) {
+        holdJammed(island, begin);
+        keep(island);
+        advance(island, soon, end, 1);
+        return;
+      }
       const double middle = (begin + end) / 2;
       advance(island, begin, middle, halvings + 1);
       advance(island, middle, end, halvings + 1);
       return;
     }
     if (result == Result::overlap) holdJammed(island, begin);
-    for (const auto i : island.objects) from_.objects[i] = to_.objects[i];
+    keep(island);
+  }
+
+  /// The end of a part is the start of the next.
+  void keep(const Island& island) {
+    for (const auto i : island.objects) {
+      from_.objects[i] = to_.objects[i];
+      from_.outlines[i] = to_.outlines[i];
+    }
   }
 
   /// Computes to_.
@@ -92,6 +111,7 @@ class PushingStep {
     for (const auto p : island.pairs) pushing_[p] = 0;
     for (const auto i : island.objects) {
       to_.objects[i] = from_.objects[i];
+      to_.outlines[i] = from_.outlines[i];
       pushed_[i] = 0;
       decelerate(i, duration_s);
     }
@@ -140,6 +160,7 @@ class PushingStep {
     pose.x += mean.vx_mps * duration_s;
     pose.y += mean.vy_mps * duration_s;
     pose.phi += mean.turn_radps * duration_s;
+    outline(group_, static_cast<std::uint32_t>(i), to_);
   }
 
   /// The first pair that has come too near; null if there is none. An object that has moved too far counts as too near
@@ -236,7 +257,9 @@ class PushingStep {
       if (pair->with == With::robot || pair->with == With::two_robots) second = sets.of(nodeOf(pair->second));
       const auto is_held = [&](std::size_t node) { return sets.of(node) == first || sets.of(node) == second; };
       for (const auto i : island.objects) {
-        if (is_held(i)) to_.objects[i] = {{}, from_.objects[i].world_from_object};
+        if (!is_held(i)) continue;
+        to_.objects[i] = {{}, from_.objects[i].world_from_object};
+        to_.outlines[i] = from_.outlines[i];
       }
       stopRobots(island, at, [&](std::size_t r) { return is_held(nodeOf(r)); });
       for (const auto r : island.robots) {
@@ -247,7 +270,7 @@ class PushingStep {
 
   PushingGroup& group_;
   double period_s_;
-  std::vector<double> stops_;          ///< fraction of its path at which each robot ends
+  std::vector<double> stops_;             ///< fraction of its path at which each robot ends
   std::vector<ObjectMotion> start_;       ///< of the step
   std::vector<ObjectMotion> part_start_;  ///< of the part
   double part_reach_m_ = 0;

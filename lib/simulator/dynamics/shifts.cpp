@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "dynamics/convergence.h"
+
 namespace robosim {
 namespace {
 
@@ -40,6 +42,7 @@ void shift(const PushingGroup& group, const PushingGroup::Pair& pair, const Cont
     pose.x += contact.normal.x * sum * lever.per_mass;
     pose.y += contact.normal.y * sum * lever.per_mass;
     pose.phi += sign * (pushes[0] * lever.arm_m[0] + pushes[1] * lever.arm_m[1]) * lever.per_turn;
+    outline(group, i, moment);
   };
   move(pair.first, first, -1);
   if (pair.with == With::object) move(pair.second, second, 1);
@@ -49,18 +52,19 @@ void shift(const PushingGroup& group, const PushingGroup::Pair& pair, const Cont
 
 void shiftApart(const PushingGroup& group, const Island& island, GroupMoment& moment,
                 std::vector<std::uint8_t>& pushing) {
+  Convergence progress;
   for (int sweep = 0; sweep < kShiftSweepsMax; ++sweep) {
-    bool is_apart = true;
+    double narrowest_m = kContactGap_m;
     for (const std::uint32_t p : island.pairs) {
       const auto& pair = group.pairs[p];
       if (pair.with == With::two_robots || !mayTouch(group, moment, pair, kContactGap_m)) continue;
       const Contact contact = contactOf(group, moment, pair);
       if (contact.gap() >= kContactGap_m - kFault_m) continue;
+      narrowest_m = std::min(narrowest_m, contact.gap());
       shift(group, pair, contact, moment);
       pushing[p] = 1;
-      is_apart = false;
     }
-    if (is_apart) return;
+    if (progress.isOver(kContactGap_m - narrowest_m)) return;
   }
 }
 
