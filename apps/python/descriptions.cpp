@@ -81,7 +81,7 @@ void bindRobotInfo(py::module_& module) {
 }
 
 void bindObject(py::module_& module) {
-  py::class_<WorldObject>(module, "WorldObject", "A stationary object of a world.")
+  py::class_<WorldObject>(module, "WorldObject", "An object of a world.")
       .def_property_readonly("name", [](const WorldObject& object) { return toPython(object.name); })
       .def_property_readonly(
           "shape",
@@ -109,6 +109,12 @@ void bindObject(py::module_& module) {
       .def_property_readonly(
           "heat_celsius", [](const WorldObject& object) { return object.body.heat_celsius; },
           "Its temperature; 0 gives off no heat.")
+      .def_property_readonly(
+          "mass_kg",
+          [](const WorldObject& object) {
+            return object.movable ? std::optional(object.movable->mass_kg) : std::nullopt;
+          },
+          "Its mass, if robots push it; None for a stationary one.")
       .def("__repr__", [](const WorldObject& object) { return toPython("<WorldObject '" + object.name + "'>"); });
 }
 
