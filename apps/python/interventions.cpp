@@ -70,8 +70,8 @@ void bindInterventions(py::class_<Simulation, std::shared_ptr<Simulation>>& simu
           py::arg("reflectivity") = kReflectivity, py::kw_only(), py::arg("mass_kg") = py::none(),
           py::arg("friction") = Movable().friction, py::arg("restitution") = Movable().restitution,
           "Adds an upright cylinder at x, y [m]. z_m: height of its centre; None: it stands on the ground.\n\nWith "
-          "mass_kg, "
-          "robots push it: friction is its coefficient on the floor (of rolling for a ball), restitution the share of "
+          "mass_kg, robots push it: friction is its coefficient on the floor (of rolling for a ball), restitution the "
+          "share of "
           "the speed with which it leaves a collision, [0, 1]. Raises ValueError if it would overlap something, or the "
           "name is taken.")
       .def(
@@ -84,7 +84,9 @@ void bindInterventions(py::class_<Simulation, std::shared_ptr<Simulation>>& simu
           },
           py::arg("name"), py::arg("x"), py::arg("y"), py::arg("length_m"), py::arg("width_m"),
           py::arg("height_m") = 1.0, py::arg("heading") = 0.0, py::arg("z_m") = py::none(), py::arg("color") = grey,
-          py::arg("heat_celsius") = 0.0, py::arg("reflectivity") = kReflectivity,
+          py::arg("heat_celsius") = 0.0, py::arg("reflectivity") = kReflectivity, py::kw_only(),
+          py::arg("mass_kg") = py::none(), py::arg("friction") = Movable().friction,
+          py::arg("restitution") = Movable().restitution,
           "Adds an upright box at x, y [m], whose length is along heading [rad]; otherwise as add_cylinder().")
       .def(
           "change",
