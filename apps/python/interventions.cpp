@@ -107,6 +107,13 @@ void bindInterventions(py::class_<Simulation, std::shared_ptr<Simulation>>& simu
           },
           py::arg("robot"), py::arg("activity"), "Makes a robot 'active', 'halted' or 'found'.")
       .def(
+          "open",
+          [](Simulation& of, const py::str& door, double share) {
+            intervene(of, OpenDoor{toBytes(door), share});
+          },
+          py::arg("door"), py::arg("share") = OpenDoor().share,
+          "Opens a door to a share of its way, [0, 1]; 0 closes it. It moves in the following steps.")
+      .def(
           "end",
           [](Simulation& of, const py::str& outcome, const py::str& text) {
             intervene(of, EndRun{toBytes(outcome), toBytes(text)});

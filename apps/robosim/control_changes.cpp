@@ -15,7 +15,7 @@ namespace {
 /// Arguments of all the subcommands.
 struct ChangeArguments {
   std::string name, element, value, outcome, text;
-  double x_m = 0, y_m = 0;
+  double x_m = 0, y_m = 0, share = 1;
   std::optional<double> heading_deg, heat_celsius, height_m, reflectivity;
   std::vector<float> color;
 };
@@ -80,6 +80,10 @@ void addChanges(CLI::App& control, const std::function<void(const Change&)>& sup
       ->required()
       ->check(CLI::IsMember({"active", "halted", "found"}))
       ->type_name("active|halted|found");
+
+  auto* open = add("open", "open a door", [a]() -> Change { return OpenDoor{a->name, a->share}; });
+  add_name(*open, "of the door");
+  open->add_option("SHARE", a->share, "of its way, [0, 1]; 0 closes it; default: 1")->type_name("SHARE");
 
   auto* end = add("end", "end the run with an outcome", [a]() -> Change { return EndRun{a->outcome, a->text}; });
   end->add_option("OUTCOME", a->outcome, "a word for statistics")->required()->type_name("WORD");

@@ -75,6 +75,7 @@ void Impulses::bounce(std::vector<ObjectMotion>& objects, std::vector<std::uint8
       const double speed = separation(objects, touch, first, second, 0);
       if (speed > -Pushing::kBounceMin_mps) continue;
       const double mobility = first.mobility(0, 0) + second.mobility(0, 0);
+      if (mobility == 0) continue;
       apply(touch, first, second, 0, -(1 + restitution) * speed / mobility, objects, pushed);
       pushing[touch.pair] = 1;
       has_bounced = true;
@@ -95,6 +96,7 @@ void Impulses::stopApproaches(std::vector<ObjectMotion>& objects, std::vector<st
       for (int i = 0; i < touch.contact.count; ++i) {
         if (touch.contact.points[static_cast<std::size_t>(i)].gap_m > kTouch_m) continue;
         const double mobility = first.mobility(i, i) + second.mobility(i, i);
+        if (mobility == 0) continue;  // neither gives way: a door and a robot
         const double needed_ns = -separation(objects, touch, first, second, i) / mobility;
         const double impulse_ns = std::max(-touch.impulse_ns[i], needed_ns);
         if (impulse_ns == 0) continue;

@@ -1,6 +1,7 @@
 #include "dynamics/movable_body.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/portable_math.h"
 
@@ -26,17 +27,21 @@ double meanDistance(const std::variant<Cylinder, Cube>& shape) {
   return (distanceIntegral(a, b, diagonal) + distanceIntegral(b, a, diagonal)) / (a * b);
 }
 
-MovableBody MovableBody::from(const Body& body, const Movable& movable) {
+MovableBody MovableBody::from(const WorldObject& object) {
+  const Body& body = object.body;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Movable movable = object.movable.value_or(Movable{.mass_kg = kInfinity, .friction = 0});
   const auto* cube = std::get_if<Cube>(&body.shape);
   const double covering_m = body.coveringRadius();
   return {.shape = body.shape,
           .heights = body.heights(),
           .mass_kg = movable.mass_kg,
-          .friction_n = movable.friction * movable.mass_kg * kGravity_mps2,
+          .friction_n = object.door ? 0 : movable.friction * movable.mass_kg * kGravity_mps2,
           .restitution = movable.restitution,
           .turn_radius_m = meanDistance(body.shape),
           .covering_radius_m = covering_m,
-          .width_min_m = cube ? std::min(cube->length_m, cube->width_m) : 2 * covering_m};
+          .width_min_m = cube ? std::min(cube->length_m, cube->width_m) : 2 * covering_m,
+          .door = object.door};
 }
 
 Outline MovableBody::outlineAt(const mrpt::math::TPose2D& world_from_object) const {

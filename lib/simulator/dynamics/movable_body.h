@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include <mrpt/math/TPose2D.h>
 
 #include "geometry/shapes/solid.h"
@@ -24,8 +26,13 @@ struct MovableBody {
   double covering_radius_m = 0;  ///< Body::coveringRadius()
   double width_min_m = 0;        ///< of its outline, in its narrowest direction
 
-  static MovableBody from(const Body& body, const Movable& movable);
+  std::optional<Door> door;  ///< which moves by itself, as if its mass were infinite
+
+  /// @pre the object is movable or a door
+  static MovableBody from(const WorldObject& object);
   Outline outlineAt(const mrpt::math::TPose2D& world_from_object) const;
+  /// Where a door is when it is open to a share.
+  mrpt::math::TPose2D doorAt(double share) const { return door->poseAt(share, std::get<Cube>(shape).length_m); }
   double deceleration() const { return friction_n / mass_kg; }  ///< while nothing touches it [m/s²]
 };
 
@@ -44,6 +51,8 @@ struct ObjectSpeed {
 /// The same, and where it is.
 struct ObjectMotion : ObjectSpeed {
   mrpt::math::TPose2D world_from_object;
+  double open_to = 0;     ///< Door::open_to, of a door
+  double door_share = 0;  ///< Door::share
   bool operator==(const ObjectMotion&) const = default;
 };
 

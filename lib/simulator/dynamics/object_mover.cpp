@@ -28,8 +28,9 @@ struct ObjectMover::Search {
   const Scene& scene;
   std::span<const Path> paths;
   std::span<const ObjectMotion> objects;
-  double speed_max_mps = 0;  ///< of all bodies at the start of the step
-  double reach_m = 0;        ///< no object moves farther
+  std::vector<double> door_shares;  ///< by object: to which a door is to be open at the end
+  double speed_max_mps = 0;         ///< of all bodies at the start of the step
+  double reach_m = 0;               ///< no object moves farther
   double path_max_m = 0;
   Sets sets;
   std::vector<std::uint8_t> is_member;  ///< by body: an object that may move, or a robot that such a one may block
@@ -46,8 +47,10 @@ struct ObjectMover::Search {
         is_member(the_paths.size() + the_objects.size()) {
     for (const auto& path : paths) path_max_m = std::max(path_max_m, std::abs(path.clippedLength()));
     speed_max_mps = path_max_m / period_s;
+    door_shares.resize(objects.size());
     for (std::size_t k = 0; k < objects.size(); ++k) {
       const auto& motion = objects[k];
+      if (of.bodies_[k].door) planDoor(k, period_s);
       if (motion.isAtRest()) continue;
       speed_max_mps = std::max(speed_max_mps, portable::hypot(motion.vx_mps, motion.vy_mps) +
                                                   std::abs(motion.turn_radps) * of.bodies_[k].covering_radius_m);
@@ -56,6 +59,32 @@ struct ObjectMover::Search {
     speed_max_mps *= 2;
     reach_m = speed_max_mps * period_s + kSlack_m;
   }
+
+  /// A door opens by the way of a step, or closes.
+  void planDoor(std::size_t k, double period_s) {
+    const MovableBody& body = of.bodies_[k];
+    const double share = objects[k].door_share;
+    const double to = isRobotNear(k) ? 1 : objects[k].open_to;
+    const double most = body.door->shareRate() * period_s;
+    door_shares[k] = std::clamp(to, share - most, share + most);
+    if (door_shares[k] == share) return;
+    const double radius_m = body.door->turn_rad == 0 ? 1 : std::get<Cube>(body.shape).length_m / 2;
+    speed_max_mps = std::max(speed_max_mps, body.door->speed * radius_m);
+  }
+
+  bool isRobotNear(std::size_t door) const {
+    const MovableBody& body = of.bodies_[door];
+    const double within_m = body.door->opens_within_m;
+    if (within_m == 0) return false;
+    const auto closed = body.doorAt(0);
+    const Outline outline = body.outlineAt(closed);
+    std::vector<std::uint32_t> near;
+    scene.findMoving({closed.x, closed.y}, body.covering_radius_m + within_m + of.radius_max_m_, paths.size(), near);
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t robot) {
+      return distance(outline, centerOf(robot)) <= coverOf(robot) + within_m;
+    });
+  }
+  bool isDoor(std::uint32_t body) const { return !isRobot(body) && object(body).door.has_value(); }
 
   std::uint32_t robotCount() const { return static_cast<std::uint32_t>(paths.size()); }
   bool isRobot(std::uint32_t body) const { return body < paths.size(); }
@@ -83,7 +112,8 @@ struct ObjectMover::Search {
   /// Objects that move, or that a robot drives against.
   void begin() {
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (!objects[k].isAtRest()) add(bodyOf(k));
+      const bool is_opening = of.bodies_[k].door && door_shares[k] != objects[k].door_share;
+      if (is_opening || !objects[k].isAtRest()) add(bodyOf(k));
     }
     std::vector<std::uint32_t> near;
     for (std::uint32_t r = 0; r < robotCount(); ++r) {
@@ -117,6 +147,7 @@ struct ObjectMover::Search {
   void meet(std::uint32_t member, std::uint32_t other, double touch_m) {
     const bool touches_where_it_is = isWithin(centerOf(member), centerOf(other), touch_m);
     if (isRobot(other) && !moves(other)) return;  // an obstacle (addObstacles())
+    if (isDoor(member) && isDoor(other)) return;  // doors may be in each other's way, as in walls
     if (!isWithin(centerOf(member), centerOf(other), touch_m + reachOf(other))) return;
     // An object at rest that cannot be touched is no member yet; if it becomes one, it meets this one.
     if (!isRobot(other) && !is_member[other] && !touches_where_it_is) return;
@@ -153,7 +184,8 @@ struct ObjectMover::Search {
       if (isRobot(body)) {
         group.robots.push_back({&of.robots_[body], &moved_paths[body]});
       } else {
-        group.objects.push_back({&object(body), &moved_objects[body - paths.size()]});
+        const std::size_t k = body - paths.size();
+        group.objects.push_back({&object(body), &moved_objects[k], door_shares[k]});
       }
     }
     const auto robots = static_cast<std::uint32_t>(group.robots.size());
@@ -194,13 +226,14 @@ struct ObjectMover::Search {
       const Solid solid = scene.solid(found);
       if (!solid.heights.overlaps(heightsOf(body))) continue;
       if (static_cast<std::size_t>(found) < scene.stationaryCount()) {
-        add_outline(solid.outline);
+        if (!isDoor(body)) add_outline(solid.outline);
         continue;
       }
       const auto moving = static_cast<std::uint32_t>(scene.movingIndex(found));
       if (isRobot(moving) && !moves(moving)) add_outline(Circle{centerOf(moving), coverOf(moving)});
     }
     const Bounds2D& surface = of.surface_;
+    if (isDoor(body)) return;
     if (center.x - far_m < surface.x_min || center.x + far_m > surface.x_max || center.y - far_m < surface.y_min ||
         center.y + far_m > surface.y_max) {
       for (const auto& edge : of.edges_) add_outline(edge);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/portable_math.h"
 #include "dynamics/group_moment.h"
@@ -27,6 +28,7 @@ class PushingStep {
   PushingStep(PushingGroup& group, double period_s)
       : group_(group), period_s_(period_s), pushing_(group.pairs.size()), pushed_(group.objects.size()) {
     for (const auto& robot : group.robots) stops_.push_back(robot.path->end_fraction);
+    door_stops_.resize(group.objects.size(), 1);
     for (const auto& object : group.objects) {
       from_.objects.push_back(*object.motion);
       from_.outlines.push_back(object.body->outlineAt(object.motion->world_from_object));
@@ -42,13 +44,19 @@ class PushingStep {
       const double begin = i / static_cast<double>(parts);
       const double end = (i + 1) / static_cast<double>(parts);
       placeRobots(begin, end);
+      for (std::size_t k = 0; k < from_.objects.size(); ++k) setDoorSpeed(k, begin, end);
       part_start_ = from_.objects;
       part_reach_m_ = islandReach(group_, (end - begin) * period_s_);
       for (const Island& island : islandsOf(group_, from_, to_.robots, (end - begin) * period_s_)) {
         advance(island, begin, end, 0);
       }
     }
-    for (std::size_t k = 0; k < from_.objects.size(); ++k) *group_.objects[k].motion = from_.objects[k];
+    for (std::size_t k = 0; k < from_.objects.size(); ++k) {
+      ObjectMotion& motion = *group_.objects[k].motion;
+      const ObjectMotion before = std::exchange(motion, from_.objects[k]);
+      if (!isDoor(k)) continue;
+      motion = {{}, motion.world_from_object, before.open_to, shareAt(k, 1)};
+    }
     for (std::size_t r = 0; r < stops_.size(); ++r) group_.robots[r].path->end_fraction = stops_[r];
   }
 
@@ -72,6 +80,26 @@ class PushingStep {
     path.end_fraction = stops_[r];
     from_.robots[r] = path.centerAt(begin);
     to_.robots[r] = path.centerAt(end);
+  }
+
+  bool isDoor(std::size_t i) const { return group_.objects[i].body->door.has_value(); }
+  /// Share to which a door is open at a fraction of the step.
+  double shareAt(std::size_t i, double fraction) const {
+    const double from = start_[i].door_share;
+    return from + (group_.objects[i].door_share - from) * std::min(fraction, door_stops_[i]);
+  }
+  mrpt::math::TPose2D doorAt(std::size_t i, double fraction) const {
+    return group_.objects[i].body->doorAt(shareAt(i, fraction));
+  }
+  void setDoorSpeed(std::size_t i, double begin, double end) {
+    if (!isDoor(i)) return;
+    const auto from = doorAt(i, begin);
+    const auto to = doorAt(i, end);
+    const double per_s = 1 / ((end - begin) * period_s_);
+    ObjectMotion& motion = from_.objects[i];
+    motion.vx_mps = (to.x - from.x) * per_s;
+    motion.vy_mps = (to.y - from.y) * per_s;
+    motion.turn_radps = std::remainder(to.phi - from.phi, 2 * M_PI) * per_s;
   }
 
   /// @param begin, end of a part, as fractions of the step
@@ -110,6 +138,7 @@ class PushingStep {
     for (const auto r : island.robots) placeRobot(r, begin, end);
     for (const auto p : island.pairs) pushing_[p] = 0;
     for (const auto i : island.objects) {
+      setDoorSpeed(i, begin, end);
       to_.objects[i] = from_.objects[i];
       to_.outlines[i] = from_.outlines[i];
       pushed_[i] = 0;
@@ -117,6 +146,11 @@ class PushingStep {
     }
     Impulses(group_, island, from_, to_.robots, duration_s).exchange(to_.objects, pushing_, pushed_);
     for (const auto i : island.objects) {
+      if (isDoor(i)) {
+        to_.objects[i].world_from_object = doorAt(i, end);
+        outline(group_, i, to_);
+        continue;
+      }
       limitSpeed(to_.objects[i]);
       moveOn(i, duration_s);
     }
@@ -215,6 +249,9 @@ class PushingStep {
       const TPoint2D way = to_.robots[r] - from_.robots[r];
       available_j[sets.of(nodeOf(r))] += group_.robots[r].disc->push_max_n * std::sqrt(dot(way, way));
     }
+    for (const auto i : island.objects) {
+      if (isDoor(i) && !to_.objects[i].isAtRest()) available_j[sets.of(i)] = std::numeric_limits<double>::infinity();
+    }
     constexpr double kRoundingShare = 1e-6;
     return stopRobots(island, at, [&](std::size_t r) {
       const std::size_t set = sets.of(nodeOf(r));
@@ -224,6 +261,7 @@ class PushingStep {
 
   /// Work against friction that an object has not paid with its own energy.
   double neededWork(std::size_t i) const {
+    if (isDoor(i)) return 0;
     const MovableBody& body = *group_.objects[i].body;
     const auto& before = from_.objects[i].world_from_object;
     const auto& after = to_.objects[i].world_from_object;
@@ -250,6 +288,12 @@ class PushingStep {
   /// The end of 5 of the description: what pushes each other where bodies overlap stays where it is.
   void holdJammed(const Island& island, double at) {
     while (const PushingGroup::Pair* const pair = firstOverlap(island)) {
+      if (pair->with == With::robot && isDoor(pair->first) && !isAtRest(pair->second)) {
+        // A robot that drives against a door does not hold it.
+        stops_[pair->second] = at;
+        to_.robots[pair->second] = from_.robots[pair->second];
+        continue;
+      }
       Sets sets = pushedTogether(island);
       const std::size_t first = sets.of(pair->with == With::two_robots ? nodeOf(pair->first) : pair->first);
       std::size_t second = first;
@@ -259,6 +303,7 @@ class PushingStep {
       for (const auto i : island.objects) {
         if (!is_held(i)) continue;
         to_.objects[i] = {{}, from_.objects[i].world_from_object};
+        door_stops_[i] = std::min(door_stops_[i], at);
         to_.outlines[i] = from_.outlines[i];
       }
       stopRobots(island, at, [&](std::size_t r) { return is_held(nodeOf(r)); });
@@ -271,6 +316,7 @@ class PushingStep {
   PushingGroup& group_;
   double period_s_;
   std::vector<double> stops_;             ///< fraction of its path at which each robot ends
+  std::vector<double> door_stops_;        ///< by object: fraction of the step at which a door is blocked
   std::vector<ObjectMotion> start_;       ///< of the step
   std::vector<ObjectMotion> part_start_;  ///< of the part
   double part_reach_m_ = 0;

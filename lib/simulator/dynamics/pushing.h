@@ -15,6 +15,7 @@ struct PushingGroup {
   struct Object {
     const MovableBody* body;
     ObjectMotion* motion;
+    double door_share = 0;  ///< of a door, to which it is to be open at the end of the step
   };
   struct Robot {
     const PushingDisc* disc;
@@ -35,7 +36,8 @@ struct PushingGroup {
 };
 
 /// Moves the objects of a group, and stops its robots where they are blocked, for a time step (doc/moving_objects.md).
-/// No two of its bodies overlap afterwards if none did before.
+/// No two of its bodies overlap afterwards if none did before. Doors move evenly, as if their mass were infinite, and
+/// are blocked for the rest of the step like robots, by robots and by what is wedged.
 ///
 /// The step is divided into equal parts, in which the robots drive on along their paths. In each part, bodies that may
 /// touch form islands, each of which is computed alone:

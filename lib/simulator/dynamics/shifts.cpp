@@ -35,6 +35,7 @@ std::array<double, 2> pushesFor(const Contact& contact, const Lever& first, cons
 void shift(const PushingGroup& group, const PushingGroup::Pair& pair, const Contact& contact, GroupMoment& moment) {
   const Lever first = leverOf(group, moment, With::object, pair.first, contact);
   const Lever second = leverOf(group, moment, pair.with, pair.second, contact);
+  if (first.per_mass + second.per_mass == 0) return;  // neither gives way: a door and a robot
   const auto pushes = pushesFor(contact, first, second);
   const auto move = [&](std::uint32_t i, const Lever& lever, double sign) {
     auto& pose = moment.objects[i].world_from_object;

@@ -109,8 +109,14 @@ struct Environment::Impl {
 
   void noteMotions() {
     motions.clear();
-    for (const auto object : movableOf(objects())) {
-      motions.push_back({state.object_speeds[motions.size()], objects()[object].body.world_from_body});
+    for (const auto i : movingObjects(objects())) {
+      const WorldObject& object = objects()[i];
+      ObjectMotion& motion =
+          motions.emplace_back(ObjectMotion{state.object_speeds[motions.size()], object.body.world_from_body});
+      if (object.door) {
+        motion.open_to = object.door->open_to;
+        motion.door_share = object.door->share;
+      }
     }
   }
 
@@ -167,8 +173,9 @@ struct Environment::Impl {
     for (std::size_t i = 0; i < paths.size(); ++i) state.stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
     std::vector<WorldObject> moved = objects();
     for (std::size_t k = 0, object = 0; k < motions.size(); ++object) {
-      if (!moved[object].movable) continue;
+      if (moved[object].isStationary()) continue;
       moved[object].body.world_from_body = motions[k].world_from_object;
+      if (moved[object].door) moved[object].door->share = motions[k].door_share;
       state.object_speeds[k] = motions[k];
       ++k;
     }
@@ -263,10 +270,10 @@ struct Environment::Impl {
     std::map<std::string, ObjectSpeed> now;
     const auto& objects_now = objects();
     std::size_t k = 0;
-    for (const auto object : movableOf(objects_now)) now[objects_now[object].name] = state.object_speeds[k++];
+    for (const auto object : movingObjects(objects_now)) now[objects_now[object].name] = state.object_speeds[k++];
     now.erase(at_rest);
     std::vector<ObjectSpeed> speeds;
-    for (const auto object : movableOf(objects_then)) {
+    for (const auto object : movingObjects(objects_then)) {
       const auto found = now.find(objects_then[object].name);
       speeds.push_back(found == now.end() ? ObjectSpeed{} : found->second);
     }

@@ -65,7 +65,7 @@ void writeSpeeds(const State& state, StateWriter& out) {
 
 void readSpeeds(StateReader& in, State& state) {
   const std::size_t movable =
-      state.objects.areChanged() ? movableOf(state.objects.orThose({})).size() : state.object_speeds.size();
+      state.objects.areChanged() ? movingObjects(state.objects.orThose({})).size() : state.object_speeds.size();
   requireContents(in.takeNumber<std::uint32_t>() == movable, "the number of movable objects differs");
   state.object_speeds.resize(movable);
   for (ObjectSpeed& speed : state.object_speeds) {

@@ -40,6 +40,7 @@ struct Environment::Impl::ApplyChange {
     }
     const auto object = objectNamed(place.name);
     if (!object) return unknown(place.name, "a robot or an object");
+    if (objects()[*object].door) return inQuotes(place.name) + " is a door, which stays in its frame; open or close it";
     return change(*object, place);
   }
 
@@ -90,6 +91,16 @@ struct Environment::Impl::ApplyChange {
   std::string operator()(const ChangeRadio& change) const {
     of.state.communication = change.communication;
     of.message_router.setCommunication(change.communication);
+    return {};
+  }
+
+  std::string operator()(const OpenDoor& open) const {
+    const auto object = objectNamed(open.name);
+    if (!object || !objects()[*object].door) {
+      if (object || robotNamed(open.name)) return inQuotes(open.name) + " is no door; name one";
+      return unknown(open.name, "a door");
+    }
+    of.setObjects(withChange(objects(), open), {});
     return {};
   }
 

@@ -49,8 +49,13 @@ void add(Digest& digest, const Solid& solid) {
 }
 
 void add(Digest& digest, const WorldObject& object) {
-  const auto& [name, body, movable, line] = object;  // the name and the place in the file have no effect
+  const auto& [name, body, movable, door, line] = object;  // the name and the place in the file have no effect
   add(digest, body);
+  if (door) {
+    const auto& [world_from_closed, slide_m, turn_rad, speed, opens_within_m, open_to, share] = *door;
+    add(digest, world_from_closed);
+    for (const double value : {slide_m, turn_rad, speed, opens_within_m, open_to, share}) digest.add(value);
+  }
   if (!movable) return;
   const auto& [mass_kg, friction, restitution] = *movable;
   for (const double value : {mass_kg, friction, restitution}) digest.add(value);

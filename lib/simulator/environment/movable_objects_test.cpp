@@ -99,6 +99,27 @@ TEST(MovableObjects, MayNotBePlacedAcrossTheEdgeOfTheSurface) {
             std::string::npos);
 }
 
+TEST(Doors, AreOpenedByInterventionsAndTheWorldFile) {
+  const auto environment = boxAheadOfRobot([](World& world) {
+    WorldObject door = world.objects[0];
+    door.name = "door";
+    door.body.world_from_body = {1, 0, M_PI_2};
+    door.door = Door{.world_from_closed = door.body.world_from_body, .slide_m = 1.5, .speed = 1};
+    world.objects[1] = door;
+    world.timeline = {{4, OpenDoor{"door"}, {}}, {8, OpenDoor{"door", 0}, {}}};
+  });
+  drive(*environment, 40);
+  EXPECT_TRUE(environment->state().stalled[0]) << "the door is closed";
+  drive(*environment, 20);
+  EXPECT_GT(environment->state().world_from_robot[0].x, 1) << "through the open door";
+  EXPECT_EQ(environment->objects()[1].door->share, 1);
+  drive(*environment, 40);
+  EXPECT_EQ(environment->objects()[1].body.world_from_body, environment->objects()[1].door->world_from_closed);
+  EXPECT_EQ(environment->apply({"test", OpenDoor{"door", 0.5}}), "");
+  EXPECT_EQ(environment->apply({"test", OpenDoor{"wall0"}}), "'wall0' is no door; name one");
+  EXPECT_NE(environment->apply({"test", PlaceBody{"door", 0, 0}}).find("is a door"), std::string::npos);
+}
+
 /// Robots that drive about among boxes and balls, in rows.
 std::unique_ptr<Environment> crowd(std::uint64_t seed, int threads) {
   Rng rng(seed);
@@ -113,6 +134,11 @@ std::unique_ptr<Environment> crowd(std::uint64_t seed, int threads) {
       if (kind == 0) continue;
       if (kind == 1) {
         addDisc(world, fleet, "r" + std::to_string(robots++), {x_m, y_m, heading_rad}, 0.2);
+      } else if (column == 3 && row % 3 == 0) {
+        addWall(world, x_m, y_m, 0.6, 0.1, heading_rad);
+        WorldObject& object = world.objects.back();
+        object.door = Door{.world_from_closed = object.body.world_from_body, .speed = 0.7, .opens_within_m = 0.5};
+        (row == 3 ? object.door->slide_m : object.door->turn_rad) = 0.8;
       } else if (kind == 2) {
         addBox(world, {x_m, y_m, heading_rad}, rng.uniform(0.1, 0.5), rng.uniform(0.1, 0.25),
                {.mass_kg = rng.uniform(0.5, 5), .friction = rng.uniform(0.1, 0.7)});

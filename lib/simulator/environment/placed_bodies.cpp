@@ -28,7 +28,7 @@ void PlacedBodies::setObjects(const std::vector<WorldObject>& objects) {
 void PlacedBodies::listObjects(const std::vector<WorldObject>& objects) {
   movable_.clear();
   for (const auto& object : objects) {
-    if (object.movable) movable_.push_back(MovableBody::from(object.body, *object.movable));
+    if (!object.isStationary()) movable_.push_back(MovableBody::from(object));
   }
   const std::size_t robots = model_.fleet.robots.size();
   scene_ = Scene(stationarySolids(objects, model_.world.maps), robots + movable_.size(), model_.world.bounds);
@@ -36,7 +36,7 @@ void PlacedBodies::listObjects(const std::vector<WorldObject>& objects) {
   std::uint32_t stationary = 0;
   std::size_t moving = robots;
   for (const auto& object : objects) {
-    body_of_object_.push_back(object.movable ? scene_.movingBody(moving++) : BodyId{stationary++});
+    body_of_object_.push_back(object.isStationary() ? BodyId{stationary++} : scene_.movingBody(moving++));
   }
 }
 

@@ -22,7 +22,7 @@ class PlacedBodies {
 
   /// Replaces the objects, in time linear in the size of the world. place() must follow.
   void setObjects(const std::vector<WorldObject>& objects);
-  /// The movable ones, in their order. The scene's moving solids are the robots, then these.
+  /// The movable ones and doors, in their order. The scene's moving solids are the robots, then these.
   const std::vector<MovableBody>& movable() const { return movable_; }
 
   /// Places the known robots and the movable objects. Absent robots are not in the scene and emit no heat.

@@ -65,7 +65,7 @@ State initialState(const Model& model, RobotRange with_readings) {
   state.seed = model.seed;
   state.digest = RunDigest(n);
   forArrays(state, [n](auto& array) { array.resize(n); });
-  state.object_speeds.resize(movableOf(model.world.objects).size());
+  state.object_speeds.resize(movingObjects(model.world.objects).size());
   for (std::size_t i = 0; i < n; ++i) {
     const FleetRobot& robot = model.fleet.robots[i];
     state.world_from_robot[i] = robot.world_from_start;

@@ -111,7 +111,7 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   EXPECT_EQ(errorOf(model, damaged),
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
-  newer[16] = 7;
+  newer[16] = 8;
   EXPECT_EQ(errorOf(model, sealed(newer)),
             "the saved state has version 8 of the format, and this program reads version 7; use the version of RoboSim "
             "that saved it");

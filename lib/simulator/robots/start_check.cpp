@@ -123,7 +123,7 @@ void checkMovableObjects(const World& world, const std::string& world_file, Erro
   std::vector<BodyId> near;
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const WorldObject& object = world.objects[i];
-    if (!object.movable) continue;
+    if (!object.movable) continue;  // doors may be in walls
     const auto report = [&](const std::string& fault) {
       errors.add(world.fileOf(object.line, world_file), object.line.number,
                  "the movable object '" + object.name + "' " + placeOf(object) + " " + fault);

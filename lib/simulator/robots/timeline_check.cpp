@@ -45,6 +45,9 @@ struct NameCheck {
     return names.robots.contains(change.robot) ? "" : names.unknown(change.robot, "a robot");
   }
   std::string operator()(const ChangeRadio&) const { return ""; }
+  std::string operator()(const OpenDoor& open) const {
+    return names.objects.contains(open.name) ? "" : names.unknown(open.name, "a door");
+  }
   std::string operator()(const EndRun&) const { return ""; }
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/portable_math.h"
+#include "base/portable_pose.h"
 
 namespace robosim {
 
@@ -31,5 +32,13 @@ Movable Movable::byVolumeOf(const Body& body) {
   }
   return {.mass_kg = kDensity_kgpm3 * area_m2 * body.height_m};
 }
+
+mrpt::math::TPose2D Door::poseAt(double at_share, double length_m) const {
+  if (turn_rad == 0) return portable::compose(world_from_closed, {slide_m * at_share, 0, 0});
+  const auto world_from_hinge = portable::compose(world_from_closed, {-length_m / 2, 0, turn_rad * at_share});
+  return portable::compose(world_from_hinge, {length_m / 2, 0, 0});
+}
+
+double Door::shareRate() const { return speed / std::abs(turn_rad == 0 ? slide_m : turn_rad); }
 
 }  // namespace robosim

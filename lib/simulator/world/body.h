@@ -53,12 +53,34 @@ struct Movable {
   static Movable byVolumeOf(const Body&);
 };
 
+/// How a door moves between the place where it is closed and the one where it is open (doc/moving_objects.md). Nothing
+/// pushes it; what is in its way stops it.
+struct Door {
+  mrpt::math::TPose2D world_from_closed = {};  ///< of its centre when it is closed
+  double slide_m = 0;                          ///< when open, along its x axis, signed; 0 for one that turns
+  double turn_rad = 0;        ///< when open, about the middle of its side at -x, signed; 0 for one that slides
+  double speed = 0.5;         ///< > 0; m/s, or rad/s of one that turns
+  double opens_within_m = 0;  ///< of a robot's disc; 0: for no robot
+  double open_to = 0;         ///< share to which it opens without a robot nearby, [0, 1]
+  double share = 0;           ///< to which it is open at present, [0, 1]
+  bool operator==(const Door&) const = default;
+
+  /// @param length_m of its body
+  mrpt::math::TPose2D poseAt(double at_share, double length_m) const;
+  /// The share by which it moves in a second.
+  double shareRate() const;
+};
+
 struct WorldObject {
   std::string name;
   Body body;
-  std::optional<Movable> movable = {};  ///< nullopt: stationary
+  std::optional<Movable> movable = {};  ///< nullopt: robots do not push it
+  std::optional<Door> door = {};        ///< not with `movable`; its body is a box
   SourceLine line;
   bool operator==(const WorldObject&) const = default;
+
+  /// Whether it never moves.
+  bool isStationary() const { return !movable && !door; }
 };
 
 }  // namespace robosim

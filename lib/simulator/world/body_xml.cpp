@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "base/angle_units.h"
+
 namespace robosim {
 namespace {
 
@@ -41,19 +43,60 @@ Body readBody(XmlReader& solid, double unit_m, bool has_place) {
   return body;
 }
 
-std::optional<Movable> readMovable(XmlReader& solid, const Body& body) {
-  auto settings = solid.child("movable");
-  const bool is_stationary = solid.flag("stationary", !settings);
-  if (!settings) return is_stationary ? std::nullopt : std::optional(Movable::byVolumeOf(body));
-  if (is_stationary) {
-    settings->error("is given to an object that is <stationary>1</stationary>; remove one of the two");
-  }
+namespace {
+
+Movable readMovable(XmlReader& settings, const Body& body) {
   Movable movable = Movable::byVolumeOf(body);
-  movable.mass_kg = settings->number("mass_kg", Bounds::positive(), movable.mass_kg);
-  movable.friction = settings->number("friction", Bounds::notNegative(), movable.friction);
-  movable.restitution = settings->number("restitution", {0, 1}, movable.restitution);
-  settings->finish();
+  movable.mass_kg = settings.number("mass_kg", Bounds::positive(), movable.mass_kg);
+  movable.friction = settings.number("friction", Bounds::notNegative(), movable.friction);
+  movable.restitution = settings.number("restitution", {0, 1}, movable.restitution);
+  settings.finish();
   return movable;
+}
+
+Door readDoor(XmlReader& settings, double unit_m, Body& body) {
+  Door door;
+  door.world_from_closed = body.world_from_body;
+  const bool slides = settings.has("slide");
+  if (slides == settings.has("turn_deg")) settings.error("needs either slide or turn_deg, how far it opens");
+  if (slides) {
+    door.slide_m = settings.length("slide", Bounds::any(), unit_m);
+    door.speed = settings.length("speed", Bounds::positive(), unit_m, door.speed);
+    if (door.slide_m == 0) settings.errorAt("slide", "is 0, so the door never opens; give the length of its way");
+  } else {
+    door.turn_rad = kRadPerDeg * settings.number("turn_deg", {-360, 360});
+    door.speed = kRadPerDeg * settings.number("speed_degps", Bounds::positive(3600), 45);
+    if (door.turn_rad == 0) settings.errorAt("turn_deg", "is 0, so the door never opens; give an angle");
+  }
+  door.opens_within_m = settings.length("opens_within", Bounds::notNegative(), unit_m, 0);
+  door.share = door.open_to = settings.number("open", {0, 1}, 0);
+  door.share = settings.number("share", {0, 1}, door.open_to);
+  settings.finish();
+  if (const auto* cube = std::get_if<Cube>(&body.shape)) {
+    body.world_from_body = door.poseAt(door.share, cube->length_m);
+  } else {
+    settings.error("is given to a <cylinder>; doors are a <cube>");
+  }
+  return door;
+}
+
+}  // namespace
+
+void readMotion(XmlReader& solid, double unit_m, WorldObject& object) {
+  auto movable = solid.child("movable");
+  auto door = solid.child("door");
+  const bool is_stationary = solid.flag("stationary", !movable);
+  if (movable && door) door->error("is given beside <movable>; keep one");
+  if (movable && is_stationary) {
+    movable->error("is given to an object that is <stationary>1</stationary>; remove one of the two");
+  }
+  if (door) {
+    object.door = readDoor(*door, unit_m, object.body);
+  } else if (movable) {
+    object.movable = readMovable(*movable, object.body);
+  } else if (!is_stationary) {
+    object.movable = Movable::byVolumeOf(object.body);
+  }
 }
 
 mrpt::math::TPose2D readPose(XmlReader& reader, double unit_m) {
@@ -90,12 +133,26 @@ XmlElement& writeBody(const std::string& name, const Body& body, double unit_m, 
 }
 
 void writeObject(const WorldObject& object, double unit_m, bool has_place, XmlElement& owner) {
-  XmlElement& element = writeBody(object.name, object.body, unit_m, has_place, owner);
+  Body body = object.body;
+  if (object.door) body.world_from_body = object.door->world_from_closed;
+  XmlElement& element = writeBody(object.name, body, unit_m, has_place, owner);
   element.add("stationary", object.movable ? "0" : "1");
-  if (!object.movable) return;
-  element.add("movable", "").attributes = {{"mass_kg", toText(object.movable->mass_kg)},
-                                           {"friction", toText(object.movable->friction)},
-                                           {"restitution", toText(object.movable->restitution)}};
+  if (object.movable) {
+    element.add("movable", "").attributes = {{"mass_kg", toText(object.movable->mass_kg)},
+                                             {"friction", toText(object.movable->friction)},
+                                             {"restitution", toText(object.movable->restitution)}};
+  }
+  if (!object.door) return;
+  const Door& door = *object.door;
+  auto& settings = element.add("door", "").attributes;
+  if (door.turn_rad == 0) {
+    settings = {{"slide", toText(door.slide_m, unit_m)}, {"speed", toText(door.speed, unit_m)}};
+  } else {
+    settings = {{"turn_deg", toText(door.turn_rad, kRadPerDeg)}, {"speed_degps", toText(door.speed, kRadPerDeg)}};
+  }
+  if (door.opens_within_m > 0) settings.emplace_back("opens_within", toText(door.opens_within_m, unit_m));
+  if (door.open_to > 0) settings.emplace_back("open", toText(door.open_to));
+  if (door.share != door.open_to) settings.emplace_back("share", toText(door.share));
 }
 
 void writePose(const mrpt::math::TPose2D& pose, double unit_m, XmlElement& element) {

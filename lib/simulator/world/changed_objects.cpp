@@ -37,17 +37,21 @@ struct ObjectChange {
   }
   void operator()(const ChangeActivity&) const {}
   void operator()(const ChangeRadio&) const {}
+  void operator()(const OpenDoor& open) const {
+    const auto object = named(open.name);
+    if (object != objects.end() && object->door) object->door->open_to = open.share;
+  }
   void operator()(const EndRun&) const {}
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> movableOf(const std::vector<WorldObject>& objects) {
-  std::vector<std::uint32_t> movable;
+std::vector<std::uint32_t> movingObjects(const std::vector<WorldObject>& objects) {
+  std::vector<std::uint32_t> moving;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].movable) movable.push_back(static_cast<std::uint32_t>(i));
+    if (!objects[i].isStationary()) moving.push_back(static_cast<std::uint32_t>(i));
   }
-  return movable;
+  return moving;
 }
 
 std::optional<std::vector<std::uint32_t>> movedBetween(const std::vector<WorldObject>& before,
@@ -58,6 +62,7 @@ std::optional<std::vector<std::uint32_t>> movedBetween(const std::vector<WorldOb
     if (before[i] == after[i]) continue;
     WorldObject placed = before[i];
     placed.body.world_from_body = after[i].body.world_from_body;
+    if (placed.door && after[i].door) placed.door->share = after[i].door->share;
     if (placed != after[i]) return std::nullopt;
     moved.push_back(static_cast<std::uint32_t>(i));
   }

@@ -32,8 +32,8 @@ class ChangedObjects {
   std::shared_ptr<const std::vector<WorldObject>> objects_;
 };
 
-/// The objects that robots push, as indices of a list.
-std::vector<std::uint32_t> movableOf(const std::vector<WorldObject>& objects);
+/// The objects that move during a run, movable ones and doors, as indices of a list.
+std::vector<std::uint32_t> movingObjects(const std::vector<WorldObject>& objects);
 
 /// Indices of the objects at other places in a later list, which differs in nothing else; nullopt if it does.
 std::optional<std::vector<std::uint32_t>> movedBetween(const std::vector<WorldObject>& before,

@@ -51,7 +51,7 @@ AddObject readAddObject(XmlReader& reader, double unit_m) {
   add.object.line = solid->line();
   add.object.name = readName(*solid);
   add.object.body = readBody(*solid, unit_m, true);
-  add.object.movable = readMovable(*solid, add.object.body);
+  readMotion(*solid, unit_m, add.object);
   solid->finish();
   return add;
 }
@@ -104,6 +104,14 @@ void write(const ChangeRadio& change, double unit_m, XmlElement& element) {
   writeCommunication(change.communication, unit_m, element);
 }
 
+OpenDoor readOpenDoor(XmlReader& reader, double) {
+  return {readName(reader), reader.number("share", {0, 1}, OpenDoor().share)};
+}
+void write(const OpenDoor& open, double, XmlElement& element) {
+  element.name = "open";
+  element.attributes = {{"name", open.name}, {"share", toText(open.share)}};
+}
+
 EndRun readEndRun(XmlReader& reader, double) {
   return {readText(reader, "outcome", reader.word("outcome"), kMaxOutcomeBytes),
           readText(reader, "text", reader.word("text", ""), kMaxEndTextBytes)};
@@ -121,13 +129,11 @@ Change readAs(XmlReader& reader, double unit_m) {
 
 /// Readers of the changes, by the name of the element.
 const std::map<std::string, Change (*)(XmlReader&, double)>& readers() {
-  static const std::map<std::string, Change (*)(XmlReader&, double)> all{{"place", readAs<readPlaceBody>},
-                                                                         {"add", readAs<readAddObject>},
-                                                                         {"remove", readAs<readRemoveBody>},
-                                                                         {"change", readAs<readChangeObject>},
-                                                                         {"activity", readAs<readChangeActivity>},
-                                                                         {"communication", readAs<readChangeRadio>},
-                                                                         {"end", readAs<readEndRun>}};
+  static const std::map<std::string, Change (*)(XmlReader&, double)> all{
+      {"place", readAs<readPlaceBody>},         {"add", readAs<readAddObject>},
+      {"remove", readAs<readRemoveBody>},       {"change", readAs<readChangeObject>},
+      {"activity", readAs<readChangeActivity>}, {"communication", readAs<readChangeRadio>},
+      {"open", readAs<readOpenDoor>},           {"end", readAs<readEndRun>}};
   return all;
 }
 

@@ -65,6 +65,13 @@ struct ChangeRadio {
   bool operator==(const ChangeRadio&) const = default;
 };
 
+/// <open name share/>: opens a door to a share of its way; 0 closes it.
+struct OpenDoor {
+  std::string name;
+  double share = 1;  ///< [0, 1]
+  bool operator==(const OpenDoor&) const = default;
+};
+
 /// <end outcome text/>: ends the run.
 struct EndRun {
   std::string outcome;    ///< a word or a phrase for statistics: "goal"; at most 100 bytes
@@ -73,7 +80,8 @@ struct EndRun {
 };
 ///@}
 
-using Change = std::variant<PlaceBody, AddObject, RemoveBody, ChangeObject, ChangeActivity, ChangeRadio, EndRun>;
+using Change =
+    std::variant<PlaceBody, AddObject, RemoveBody, ChangeObject, ChangeActivity, ChangeRadio, OpenDoor, EndRun>;
 
 /// A change, and who has made it: kWorldFileAuthor, "observer NAME", "Python", a user of a server.
 struct Intervention {

@@ -26,6 +26,8 @@ std::vector<Change> oneOfEachKind() {
           ChangeRadio{radio},
           ChangeRadio{},
           EndRun{"goal", "red has scored"},
+          OpenDoor{"door"},
+          OpenDoor{"door", 1.0 / 3},
           EndRun{"over"}};
 }
 
@@ -68,9 +70,9 @@ TEST(Intervention, OfAWorldFileThatIsFaultyIsReportedWithItsLine) {
             Faults{"a.xml:2: <at time=\"-1\">: must be at least 0; write a number there"});
   EXPECT_EQ(faults("<at time=\"1\"/>"), Faults{"a.xml:2: <at>: contains no change; add one, such as <place>"});
   EXPECT_EQ(
-      faults("<at time=\"1\"><open name=\"door\"/></at>"),
-      Faults{"a.xml:2: <open>: is no change of a run; changes are: activity, add, change, communication, end, place, "
-             "remove"});
+      faults("<at time=\"1\"><shut name=\"door\"/></at>"),
+      Faults{"a.xml:2: <shut>: is no change of a run; changes are: activity, add, change, communication, end, open, "
+             "place, remove"});
   EXPECT_EQ(faults("<at time=\"1\"><place name=\"a\" x=\"1\" y=\"2\" z=\"3\"/></at>"),
             Faults{"a.xml:2: <place>: unknown attribute z=\"3\"; accepted here are: name, x, y"});
 }

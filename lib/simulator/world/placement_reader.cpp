@@ -18,7 +18,7 @@ WorldObject PlacementReader::readPrimitive(XmlReader& primitive, Place place) {
     object.line = solid->line();
     object.name = place == Place::given ? readName(*solid) : solid->word("name");
     object.body = readBody(*solid, world_.unit_m, place == Place::given);
-    object.movable = readMovable(*solid, object.body);
+    readMotion(*solid, world_.unit_m, object);
     solid->finish();
   } else {
     primitive.error("contains neither a <cylinder> nor a <cube>; add one");

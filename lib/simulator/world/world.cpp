@@ -50,7 +50,7 @@ std::vector<Solid> startSolids(const World& world) {
 }
 
 std::vector<Solid> stationarySolids(const std::vector<WorldObject>& objects, const std::vector<WorldMap>& maps) {
-  return solidsOf(objects, maps, [](const WorldObject& object) { return !object.movable; });
+  return solidsOf(objects, maps, [](const WorldObject& object) { return object.isStationary(); });
 }
 
 }  // namespace robosim

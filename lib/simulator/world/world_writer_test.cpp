@@ -54,6 +54,18 @@ class WorldMaker {
 
  private:
   bool maybe() { return rng_.below(2) == 1; }
+  /// Makes a door of a box that robots do not push.
+  void makeDoor(WorldObject& object) {
+    const auto* cube = std::get_if<Cube>(&object.body.shape);
+    if (!cube || object.movable) return;
+    Door door{.world_from_closed = object.body.world_from_body, .speed = size(5)};
+    (maybe() ? door.slide_m : door.turn_rad) = maybe() ? size(3) : -size(3);
+    door.opens_within_m = maybe() ? size(3) : 0;
+    door.open_to = maybe() ? rng_.uniform() : 0;
+    door.share = maybe() ? rng_.uniform() : door.open_to;
+    object.door = door;
+    object.body.world_from_body = door.poseAt(door.share, cube->length_m);
+  }
   Movable movable() { return {.mass_kg = size(1000), .friction = size(2), .restitution = rng_.uniform()}; }
   /// Random positive number of any magnitude up to `max`.
   double size(double max) { return max * std::pow(10, rng_.uniform(-6, 0)); }

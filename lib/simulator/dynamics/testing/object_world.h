@@ -11,6 +11,14 @@ namespace robosim {
 struct ObjectWorld {
   explicit ObjectWorld(const Bounds2D& the_surface = {-10, 10, -10, 10}) : surface(the_surface) {}
 
+  /// A box of 0.1 m across that is closed at a place.
+  std::size_t addDoor(const mrpt::math::TPose2D& closed, double length_m, Door door) {
+    door.world_from_closed = closed;
+    const Body body{.shape = Cube{length_m, 0.1}, .world_from_body = closed, .center_z_m = 0.25, .height_m = 0.5};
+    bodies.push_back(MovableBody::from({.name = "", .body = body, .door = door, .line = {}}));
+    objects.push_back({{}, bodies.back().doorAt(door.share), door.open_to, door.share});
+    return objects.size() - 1;
+  }
   /// @return its index
   std::size_t addBox(const mrpt::math::TPose2D& at, double length_m, double width_m, const Movable& movable = {}) {
     return add({.shape = Cube{length_m, width_m}, .world_from_body = at, .center_z_m = 0.25, .height_m = 0.5}, movable);
@@ -55,7 +63,7 @@ struct ObjectWorld {
 
  private:
   std::size_t add(const Body& body, const Movable& movable) {
-    bodies.push_back(MovableBody::from(body, movable));
+    bodies.push_back(MovableBody::from({.name = "", .body = body, .movable = movable, .line = {}}));
     objects.push_back({{}, body.world_from_body});
     return objects.size() - 1;
   }
