@@ -259,6 +259,8 @@ def is_running(group):
         return True
     except ProcessLookupError:
         return False
+    except PermissionError:  # its number has passed to processes of another user
+        return False
 
 
 def run_page(page, prefix, python_folder="lib/python3/dist-packages"):
