@@ -58,7 +58,10 @@ Door readDoor(XmlReader& settings, double unit_m, Body& body) {
   Door door;
   door.world_from_closed = body.world_from_body;
   const bool slides = settings.has("slide");
-  if (slides == settings.has("turn_deg")) settings.error("needs either slide or turn_deg, how far it opens");
+  if (slides == settings.has("turn_deg")) {
+    settings.error("needs either slide or turn_deg, how far it opens");
+    return door;
+  }
   if (slides) {
     door.slide_m = settings.length("slide", Bounds::any(), unit_m);
     door.speed = settings.length("speed", Bounds::positive(), unit_m, door.speed);

@@ -28,12 +28,6 @@ std::string pillar(const std::string& name, const std::string& radius = "1", con
          "</radius><height>4</height>" + more + "</cylinder></primitive>";
 }
 
-std::string box(const std::string& name, const std::string& more) {
-  return "<primitive><cube><name>" + name +
-         "</name><x>1</x><y>1</y><z>0.5</z><length>1</length><width>0.1</width><height>1</height>" + more +
-         "</cube></primitive>";
-}
-
 std::string scout(const std::string& name, const std::string& more = "") {
   return "<robot><model>scout</model><name>" + name + "</name><x>1</x><y>2</y>" + more + "</robot>";
 }
@@ -219,39 +213,6 @@ TEST(WorldReader, RejectsSizesThatAreNotPositive) {
             (Lines{"a.xml:2: <length>0</length>: must be above 0; write a number there",
                    "a.xml:2: <width>-0</width>: must be above 0; write a number there",
                    "a.xml:2: <height>-3</height>: must be above 0; write a number there"}));
-}
-
-TEST(WorldReader, ReadsHowObjectsMove) {
-  const World world = parsed(worldOf({pillar("old", "0.5", "<stationary>0</stationary>"),
-                                      pillar("ball", "0.1", "<movable mass_kg='0.4' friction='0.02'/>"),
-                                      box("gate", "<door slide='-1.5' speed='0.7' opens_within='2'/>"),
-                                      box("hinged", "<door turn_deg='90' open='0.5'/>")}));
-  EXPECT_NEAR(world.objects[0].movable->mass_kg, 100 * M_PI * 0.25 * world.objects[0].body.height_m, 1e-9);
-  EXPECT_EQ(world.objects[1].movable, (Movable{.mass_kg = 0.4, .friction = 0.02}));
-  const Door& gate = *world.objects[2].door;
-  EXPECT_EQ(gate.slide_m, -1.5);
-  EXPECT_EQ(gate.speed, 0.7);
-  EXPECT_EQ(gate.opens_within_m, 2);
-  // Half open: it has turned by 45° about the middle of its side at -x.
-  const Body& hinged = world.objects[3].body;
-  EXPECT_NEAR(hinged.world_from_body.phi, M_PI_4, 1e-12);
-  EXPECT_NEAR(hinged.world_from_body.x, 1 - 0.5 + 0.5 * std::cos(M_PI_4), 1e-12);
-  EXPECT_NEAR(hinged.world_from_body.y, 1 + 0.5 * std::sin(M_PI_4), 1e-12);
-}
-
-TEST(WorldReader, RejectsContradictionsAboutTheMotionOfObjects) {
-  EXPECT_EQ(
-      faults(worldOf({pillar("p", "1", "<stationary>1</stationary><movable/>"),
-                      pillar("q", "1", "<movable mass_kg='0'/>"), pillar("r", "1", "<door slide='1'/>"),
-                      box("s", "<door/>"), box("t", "<door slide='1' turn_deg='9'/>"), box("u", "<door slide='0'/>"),
-                      box("v", "<movable/><door slide='1'/>")})),
-      (Lines{"a.xml:2: <movable>: is given to an object that is <stationary>1</stationary>; remove one of the two",
-             "a.xml:3: <movable mass_kg=\"0\">: must be above 0; drop it for the default, 314.159",
-             "a.xml:4: <door>: is given to a <cylinder>; doors are a <cube>",
-             "a.xml:5: <door>: needs either slide or turn_deg, how far it opens",
-             "a.xml:6: <door>: needs either slide or turn_deg, how far it opens",
-             "a.xml:7: <door slide=\"0\">: is 0, so the door never opens; give the length of its way",
-             "a.xml:8: <door>: is given beside <movable>; keep one"}));
 }
 
 TEST(WorldReader, RejectsValuesOutOfBounds) {
