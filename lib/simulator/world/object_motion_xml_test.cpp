@@ -1,4 +1,7 @@
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +20,14 @@ std::string worldWithObjects(const std::vector<std::string>& objects) {
   return text + "</surface></world>";
 }
 
+/// The faults of a world.
+Lines faultsOf(const std::string& text, World* world = nullptr) {
+  ErrorList errors;
+  World read = parseWorld(text, "a.xml", errors);
+  if (world != nullptr) *world = std::move(read);
+  return errors.errors();
+}
+
 std::string movingPillar(const std::string& name, const std::string& radius, const std::string& more) {
   return "<primitive><cylinder><name>" + name + "</name><x>1</x><y>2</y><z>3</z><radius>" + radius +
          "</radius><height>4</height>" + more + "</cylinder></primitive>";
@@ -29,14 +40,14 @@ std::string movingBox(const std::string& name, const std::string& more) {
 }
 
 TEST(ObjectMotionXml, ReadsHowObjectsMove) {
-  ErrorList errors;
-  const World world =
-      parseWorld(worldWithObjects({movingPillar("old", "0.5", "<stationary>0</stationary>"),
-                                   movingPillar("ball", "0.1", "<movable mass_kg='0.4' friction='0.02'/>"),
-                                   movingBox("gate", "<door slide='-1.5' speed='0.7' opens_within='2'/>"),
-                                   movingBox("hinged", "<door turn_deg='90' open='0.5'/>")}),
-                 "a.xml", errors);
-  EXPECT_EQ(errors.errors(), Lines{});
+  World world;
+  EXPECT_EQ(faultsOf(worldWithObjects({movingPillar("old", "0.5", "<stationary>0</stationary>"),
+                                       movingPillar("ball", "0.1", "<movable mass_kg='0.4' friction='0.02'/>"),
+                                       movingBox("gate", "<door slide='-1.5' speed='0.7' opens_within='2'/>"),
+                                       movingBox("hinged", "<door turn_deg='90' open='0.5'/>")}),
+                     &world),
+            Lines{});
+  ASSERT_EQ(world.objects.size(), 4u);
   EXPECT_NEAR(world.objects[0].movable->mass_kg, 100 * M_PI * 0.25 * world.objects[0].body.height_m, 1e-9);
   EXPECT_EQ(world.objects[1].movable, (Movable{.mass_kg = 0.4, .friction = 0.02}));
   const Door& gate = *world.objects[2].door;
