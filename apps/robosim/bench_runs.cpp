@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
+#include "base/seconds.h"
 #include "base/text_table.h"
 #include "benchmark/runs_on_ranks.h"
 #include "distributed/ranks/agreement.h"
@@ -21,7 +22,7 @@ class RunProgress {
   RunProgress(std::size_t done, std::size_t planned) : done_before_(done), planned_(planned) {}
   void show(std::size_t done) {
     if (!progress_.due()) return;
-    const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double elapsed_s = secondsSince(start_);
     progress_.show("run " + std::to_string(done) + " of " + std::to_string(planned_) +
                    commaRemainingTime(elapsed_s, static_cast<double>(done - done_before_),
                                       static_cast<double>(planned_ - done_before_)));

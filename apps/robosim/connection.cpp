@@ -11,6 +11,7 @@
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "base/seconds.h"
 #include "net/first_connection.h"
 #include "net/host_port.h"
 #include "net/private_file.h"
@@ -54,7 +55,7 @@ ConnectOptions ConnectionArguments::connectOptions(double reconnect_timeout_s) c
 
 ConnectOptions ConnectionArguments::awaitServer(const ConnectOptions& options, const std::string& command) const {
   const Interrupt interrupt;
-  return waitForServer(options, std::chrono::duration<double>(connect_timeout_s), [&](const std::string& line) {
+  return waitForServer(options, Seconds(connect_timeout_s), [&](const std::string& line) {
     if (reports_waiting) logInfo(command, line);
   });
 }

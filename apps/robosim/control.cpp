@@ -1,4 +1,3 @@
-#include <chrono>
 #include <functional>
 #include <iostream>
 #include <optional>
@@ -6,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/error_list.h"
+#include "base/seconds.h"
 #include "base/text_table.h"
 #include "client/control_panel.h"
 #include "robosim/arguments.h"
@@ -110,7 +110,7 @@ void showLine(const v1::RunStatus& status) { std::cout << lineOn(status) << std:
 void showStatus(const ControlArguments& a) {
   ControlPanel panel(a.connectOptions());
   if (a.watch) {
-    panel.watch(std::chrono::duration<double>(a.period_s), showLine);
+    panel.watch(Seconds(a.period_s), showLine);
   } else {
     std::cout << pageOn(panel.status());
   }

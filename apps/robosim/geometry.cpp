@@ -4,6 +4,7 @@
 
 #include "base/log.h"
 #include "base/printable_text.h"
+#include "base/seconds.h"
 #include "client/geometry_worker.h"
 #include "net/reconnector.h"
 #include "robosim/arguments.h"
@@ -25,7 +26,7 @@ void work(const GeometryArguments& arguments) {
                         arguments.threads);
   worker.connect();
   std::cout << "computing for the world " << printableText(worker.world().name) << std::endl;
-  Reconnector reconnector(std::chrono::duration<double>(arguments.reconnect_timeout_s),
+  Reconnector reconnector(Seconds(arguments.reconnect_timeout_s),
                           [](const std::string& line) { logInfo("geometry", line); });
   reconnector.run([&] { worker.work(); }, [&] { worker.connect(); });
   std::cout << "the run is over" << std::endl;

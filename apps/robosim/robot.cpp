@@ -1,4 +1,3 @@
-#include <chrono>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -6,6 +5,7 @@
 
 #include "base/fork_processes.h"
 #include "base/log.h"
+#include "base/seconds.h"
 #include "client/network_hardware.h"
 #include "control/controller_error.h"
 #include "net/host_port.h"
@@ -39,8 +39,7 @@ RemotePort::Options portOptions(const RobotArguments& arguments) {
 
 RemoteControlRobot::Options remoteOptions(const RobotArguments& arguments) {
   RemoteControlRobot::Options options;
-  options.dead_man = std::chrono::duration_cast<DriveCommandFilter::Clock::duration>(
-      std::chrono::duration<double>(arguments.dead_man_s));
+  options.dead_man = fromSeconds(arguments.dead_man_s);
   options.log = logRobot;
   return options;
 }
@@ -144,7 +143,7 @@ bool isServed(const RobotArguments& arguments) {
 /// the address of the port for remote control, for the next run
 std::string driveInOneRun(const RobotArguments& arguments) {
   RobotProcess process(arguments);
-  Reconnector reconnector(std::chrono::duration<double>(arguments.reconnect_timeout_s), logRobot);
+  Reconnector reconnector(Seconds(arguments.reconnect_timeout_s), logRobot);
   try {
     reconnector.run([&] { process.drive(); }, [&] { process.rejoin(); });
   } catch (const ConnectionError& error) {

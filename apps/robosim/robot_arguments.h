@@ -1,8 +1,8 @@
 #pragma once
-#include <chrono>
 #include <string>
 #include <vector>
 
+#include "base/seconds.h"
 #include "control/controller_error.h"
 #include "net/connect.h"
 #include "remote/drive_command_filter.h"
@@ -27,7 +27,7 @@ struct RobotArguments {
   bool joins_next_run = false;
   std::string remote_port;
   ListenerArguments listener;
-  double dead_man_s = std::chrono::duration<double>(DriveCommandFilter::kDeadMan).count();
+  double dead_man_s = toSeconds(DriveCommandFilter::kDeadMan);
   std::string arcos;       ///< channel to a robot that speaks ARCOS, as openChannel(); empty: a robot of a served world
   std::string arcos_type;  ///< its robot type; empty: what it reports
   std::string arcos_log;

@@ -16,6 +16,7 @@
 #include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
+#include "base/seconds.h"
 #include "base/text_table.h"
 #include "distributed/distributed_run.h"
 #include "distributed/ranks/agreement.h"
@@ -64,10 +65,10 @@ std::string progressText(const LocalRun& run, double limit_s, double wall_s) {
 }
 
 /// Sleeps until a time, in short intervals, because an interrupt does not wake it. @return false when interrupted
-bool waitUntil(std::chrono::time_point<Clock, std::chrono::duration<double>> then, const Interrupt& interrupt) {
-  constexpr std::chrono::duration<double> kNap(0.05);
+bool waitUntil(std::chrono::time_point<Clock, Seconds> then, const Interrupt& interrupt) {
+  constexpr Seconds kNap(0.05);
   while (Clock::now() < then && !interrupt.isRequested()) {
-    std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(kNap, then - Clock::now()));
+    std::this_thread::sleep_for(std::min<Seconds>(kNap, then - Clock::now()));
   }
   return !interrupt.isRequested();
 }
@@ -81,13 +82,13 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
     const SimTime now = run.environment().time();
     if (interrupt.isRequested()) return EndedBy::interrupt;
     if (arguments.timeIsUp(now)) return EndedBy::time_limit;
-    if (speed > 0 && !waitUntil(start + std::chrono::duration<double>(now.seconds() / speed), interrupt)) {
+    if (speed > 0 && !waitUntil(start + Seconds(now.seconds() / speed), interrupt)) {
       return EndedBy::interrupt;
     }
     run.step();
     observe();
     if (progress.due()) {
-      progress.show(progressText(run, arguments.time_s, std::chrono::duration<double>(Clock::now() - start).count()));
+      progress.show(progressText(run, arguments.time_s, secondsSince(start)));
     }
   }
   return endedByItself(run);
@@ -144,8 +145,6 @@ LoadedWorld loadedWorld(const LocalRunArguments& arguments, std::optional<WorldS
   return source ? loadWorldToRun(*source, arguments.run.controller)
                 : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed);
 }
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr const char* kInterrupted = "interrupted; all outputs cover the steps before";
 
@@ -242,7 +241,7 @@ void runOnRanks(const LocalRunArguments& arguments, RankGroup& group) {
         ended_by = run.isEndRequested() ? EndedBy::interrupt : EndedBy::time_limit;
         break;
       }
-      if (speed > 0) waitUntil(start + std::chrono::duration<double>(now.seconds() / speed), interrupt);
+      if (speed > 0) waitUntil(start + Seconds(now.seconds() / speed), interrupt);
       run.step(interrupt.isRequested(), failure);
       observe();
     }

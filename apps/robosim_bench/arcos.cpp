@@ -15,6 +15,7 @@
 #include "arcos/client/arcos_client.h"
 #include "arcos/protocol/command.h"
 #include "arcos/protocol/laser_packets.h"
+#include "base/seconds.h"
 #include "base/temporary_directory.h"
 #include "base/text_table.h"
 #include "robosim/arguments.h"
@@ -28,7 +29,6 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
 
 struct ArcosArguments {
   int robots = 1000;
@@ -88,10 +88,10 @@ class BenchProgram {
   }
   void noteSip() {
     const auto now = Clock::now();
-    if (last_sip_) intervals_s.push_back(Seconds(now - *last_sip_).count());
+    if (last_sip_) intervals_s.push_back(toSeconds(now - *last_sip_));
     last_sip_ = now;
     if (asked_ && client_.sip().speed_left != speed_before_) {
-      latencies_s.push_back(Seconds(now - *asked_).count());
+      latencies_s.push_back(toSeconds(now - *asked_));
       asked_.reset();
     }
   }
@@ -143,9 +143,7 @@ void awaitPort(asio::io_context& io, std::uint16_t port, ChildProgram& server) {
   throw std::runtime_error("robosim serve does not listen");
 }
 
-void runFor(asio::io_context& io, double seconds) {
-  io.run_for(std::chrono::duration_cast<Clock::duration>(Seconds(seconds)));
-}
+void runFor(asio::io_context& io, double seconds) { io.run_for(fromSeconds(seconds)); }
 
 nlohmann::ordered_json measure(const ArcosArguments& arguments) {
   const EmptyWorldFile world(arguments.robots);
@@ -165,11 +163,11 @@ nlohmann::ordered_json measure(const ArcosArguments& arguments) {
   for (const auto& program : programs) program->restart();
   const double cpu_before_s = Clocks::now().cpu_s, server_before_s = server.cpuSeconds();
   const auto start = Clock::now();
-  while (Seconds(Clock::now() - start).count() < arguments.time_s) {
+  while (secondsSince(start) < arguments.time_s) {
     for (const auto& program : programs) program->changeSpeed();
     runFor(io, 0.73);  // no multiple of the cycle, so that commands arrive at any time in it
   }
-  const double wall_s = Seconds(Clock::now() - start).count(), cpu_s = Clocks::now().cpu_s - cpu_before_s;
+  const double wall_s = secondsSince(start), cpu_s = Clocks::now().cpu_s - cpu_before_s;
   const double server_s = server.cpuSeconds() - server_before_s;
   std::vector<double> intervals, latencies;
   std::uint64_t scans = 0;

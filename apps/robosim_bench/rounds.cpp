@@ -4,6 +4,8 @@
 #include <chrono>
 #include <ctime>
 
+#include "base/seconds.h"
+
 namespace robosim {
 
 double median(std::vector<double> values) {
@@ -33,8 +35,7 @@ Cost oneRound(const Contender& contender, double min_s) {
 Clocks Clocks::now() {
   timespec cpu{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
-  const auto wall = std::chrono::steady_clock::now().time_since_epoch();
-  return {std::chrono::duration<double>(wall).count(),
+  return {toSeconds(std::chrono::steady_clock::now().time_since_epoch()),
           static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec)};
 }
 

@@ -76,8 +76,7 @@ v1::RunStatus ControlPanel::load(const WorldSource& world) {
   return status;
 }
 
-void ControlPanel::watch(std::chrono::duration<double> min_interval,
-                         const std::function<void(const v1::RunStatus&)>& on_status) {
+void ControlPanel::watch(Seconds min_interval, const std::function<void(const v1::RunStatus&)>& on_status) {
   ClientCall call(connect_options_, cancellation_);
   v1::WatchRequest request;
   request.set_protocol(kProtocolVersion);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "base/seconds.h"
 #include "net/client_call.h"
 #include "net/connect.h"
 #include "robosim/v1/control_panel.grpc.pb.h"
@@ -34,7 +35,7 @@ class ControlPanel {
 
   /// Calls `on_status` with the current status at once, then repeatedly, at least `min_interval` apart ([0, 3600] s;
   /// 50 ms if it is less), and with the last status when the run is over.
-  void watch(std::chrono::duration<double> min_interval, const std::function<void(const v1::RunStatus&)>& on_status);
+  void watch(Seconds min_interval, const std::function<void(const v1::RunStatus&)>& on_status);
 
   /// Cancels the call in flight, which throws a ConnectionError, and all later calls. Thread-safe.
   void leave() { cancellation_.cancel(); }

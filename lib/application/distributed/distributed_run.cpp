@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "base/seconds.h"
 #include "distributed/rank_bytes.h"
 #include "distributed/ranks/agreement.h"
 #include "distributed/run_identity.h"
@@ -18,9 +19,7 @@
 namespace robosim {
 namespace {
 
-double secondsNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double secondsNow() { return toSeconds(std::chrono::steady_clock::now().time_since_epoch()); }
 
 /// Processor time of this process [s]; other programs on a shared machine do not change it much.
 double processorSeconds() {

@@ -17,6 +17,7 @@
 #include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
+#include "base/seconds.h"
 #include "base/text_table.h"
 #include "recording/rawlog_reader.h"
 #include "replay/observation_csv.h"
@@ -234,10 +235,9 @@ ReplayResult printObservations(const ReplayArguments& arguments) {
     if (!selection.takes(*observation, reader)) continue;
     const double time_s = selection.time();
     while (speed > 0 && !interrupt.isRequested()) {
-      const std::chrono::duration<double> left((time_s - arguments.from_s.value_or(0)) / speed -
-                                               std::chrono::duration<double>(Clock::now() - start).count());
-      if (left.count() <= 0) break;
-      std::this_thread::sleep_for(std::min(left, std::chrono::duration<double>(0.05)));
+      const double left_s = (time_s - arguments.from_s.value_or(0)) / speed - secondsSince(start);
+      if (left_s <= 0) break;
+      std::this_thread::sleep_for(Seconds(std::min(left_s, 0.05)));
     }
     const SensorInfo* sensor = sensors ? sensors->find(observation->sensorLabel) : nullptr;
     if (arguments.csv) {

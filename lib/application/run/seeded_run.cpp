@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "base/seconds.h"
+
 namespace robosim {
 
 std::optional<RunSummary> runSeeded(const LoadedWorld& world, const RandomStarts& starts, const SeededRun& how,
@@ -29,7 +31,7 @@ std::optional<RunSummary> runSeeded(const LoadedWorld& world, const RandomStarts
   summary.world = world.world.name;
   summary.seed = how.seed;
   summary.ended_by = endedByItself(run);
-  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  summary.wall_s = secondsSince(start);
   return summary;
 }
 

@@ -11,6 +11,7 @@
 #include "arcos/protocol/parameters.h"
 #include "base/angle_units.h"
 #include "base/log_limiter.h"
+#include "base/seconds.h"
 #include "control/robot.h"
 #include "environment/local_hardware.h"
 #include "net/connection_acceptor.h"
@@ -262,7 +263,7 @@ struct ArcosServer::Impl {
 
   void stepped() {
     const auto now = Clock::now();
-    const auto interval_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now - last_step).count();
+    const auto interval_ms = wholeMilliseconds(now - last_step);
     last_step = now;
     for (const auto& robot : robots) {
       robot->measured_interval_ms = static_cast<std::uint16_t>(std::min<std::int64_t>(interval_ms, 65535));

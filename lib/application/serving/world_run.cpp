@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "base/seconds.h"
 #include "control/controller_error.h"
 #include "net/host_port.h"
 #include "recording/recording_error.h"
@@ -117,8 +118,7 @@ class WorldRun::OneRun {
 
   void finish(EndedBy ended_by) {
     if (std::exchange(is_finished, true)) return;
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    outputs.finish(run, wall.count(), ended_by, late, report);
+    outputs.finish(run, secondsSince(start), ended_by, late, report);
     reportRecording();
   }
 

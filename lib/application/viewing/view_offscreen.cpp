@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
+#include "base/seconds.h"
 #include "base/text_table.h"
 #include "rendering/picture_format.h"
 #include "rendering/png_file.h"
@@ -71,7 +72,7 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
       source.advance(0);
       video.add(drawing.draw(size));
       if (progress.due()) {
-        const double elapsed_s = std::chrono::duration<double>(Progress::Clock::now() - start).count();
+        const double elapsed_s = secondsSince(start);
         progress.show(fixed(t, 1) + " of " + fixed(end_s, 1) + " s" +
                       commaRemainingTime(elapsed_s, t - begin_s, end_s - begin_s));
       }
@@ -91,13 +92,13 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
     using Clock = std::chrono::steady_clock;
     const auto first = Clock::now();
     for (std::uint64_t frame = 0;; ++frame) {
-      const std::chrono::duration<double> due(static_cast<double>(frame) / times.fps);
-      std::this_thread::sleep_until(first + std::chrono::duration_cast<Clock::duration>(due));
-      if (interrupt.isRequested() || (times.for_s && due.count() > *times.for_s)) break;
+      const double due_s = static_cast<double>(frame) / times.fps;
+      std::this_thread::sleep_until(first + fromSeconds(due_s));
+      if (interrupt.isRequested() || (times.for_s && due_s > *times.for_s)) break;
       source.advance(1 / times.fps);
       video.add(drawing.draw(size));
       if (source.isOver()) break;
-      if (progress.due()) progress.show(fixed(due.count(), 1) + " s …");
+      if (progress.due()) progress.show(fixed(due_s, 1) + " s …");
     }
   }
   video.commit();

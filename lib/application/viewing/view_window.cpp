@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <utility>
 
 #include <nanogui/nanogui.h>
 #include <nanogui/opengl.h>
@@ -10,6 +11,7 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/printable_text.h"
+#include "base/seconds.h"
 #include "base/text_table.h"
 #include "viewing/picture_widget.h"
 #include "viewing/view_outputs.h"
@@ -111,9 +113,8 @@ class ViewWindow final : public nanogui::Screen {
   void drawContents() override {
     safely([this] {
       const auto now = std::chrono::steady_clock::now();
-      const std::chrono::duration<double> since = now - last_;
-      last_ = now;
-      if (advance(since.count())) picture_->renew();
+      const double since_s = toSeconds(now - std::exchange(last_, now));
+      if (advance(since_s)) picture_->renew();
       if (times_.to_s && source_.duration() && source_.snapshot().time_s >= *times_.to_s) source_.pause(true);
       if (interrupt_.isRequested()) close();
       showStatus();

@@ -5,14 +5,14 @@
 
 #include <mrpt/core/format.h>
 
+#include "base/seconds.h"
+
 namespace robosim {
 namespace {
 
 constexpr int kTenths = 10;
 
-std::string secondsText(DriveCommandFilter::Clock::duration time) {
-  return mrpt::format("%.3g s", std::chrono::duration<double>(time).count());
-}
+std::string secondsText(Seconds time) { return mrpt::format("%.3g s", time.count()); }
 
 }  // namespace
 

@@ -21,7 +21,7 @@ constexpr int kMaxEventsPerPoll = 32;
 constexpr std::chrono::seconds kShutdownGracePeriod(1);
 
 gpr_timespec timespecOf(CompletionQueueServer::Clock::time_point until) {
-  const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(until - CompletionQueueServer::Clock::now());
+  const std::chrono::nanoseconds wait = until - CompletionQueueServer::Clock::now();
   return gpr_time_add(gpr_now(GPR_CLOCK_MONOTONIC), gpr_time_from_nanos(wait.count(), GPR_TIMESPAN));
 }
 

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "base/interrupt.h"
+#include "base/seconds.h"
 #include "base/text_table.h"
 #include "net/tls.h"
 
@@ -28,10 +29,10 @@ bool isConnected(grpc::Channel& channel, Clock::time_point until) {
 
 }  // namespace
 
-ConnectOptions waitForServer(ConnectOptions options, std::chrono::duration<double> timeout,
+ConnectOptions waitForServer(ConnectOptions options, Seconds timeout,
                              const std::function<void(const std::string&)>& log) {
   if (timeout.count() <= 0) return options;
-  const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout);
+  const auto until = Clock::now() + fromSeconds(timeout.count());
   {
     // The channel is not used after a failure: its next attempt would wait for gRPC's back-off, and a call would fail
     // in the meantime.

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "base/seconds.h"
 #include "net/connect.h"
 
 namespace robosim {
@@ -14,7 +15,7 @@ namespace robosim {
 /// @param log receives one line when the client begins to wait
 /// @return the options with the connection, if there is one; else the first call of the client reports the failure
 /// @throws Interrupted when a signal has requested the end (Interrupt::signal())
-ConnectOptions waitForServer(ConnectOptions options, std::chrono::duration<double> timeout,
+ConnectOptions waitForServer(ConnectOptions options, Seconds timeout,
                              const std::function<void(const std::string&)>& log);
 
 }  // namespace robosim

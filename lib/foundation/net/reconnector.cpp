@@ -4,7 +4,7 @@
 
 namespace robosim {
 
-Reconnector::Reconnector(std::chrono::duration<double> timeout, std::function<void(const std::string&)> log)
+Reconnector::Reconnector(Seconds timeout, std::function<void(const std::string&)> log)
     : timeout_(timeout), log_(std::move(log)) {}
 
 void Reconnector::run(const std::function<void()>& communicate, const std::function<void()>& reconnect) {

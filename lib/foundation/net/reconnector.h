@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "base/seconds.h"
 #include "net/connect.h"
 
 namespace robosim {
@@ -14,7 +15,7 @@ class Reconnector {
 
   /// @param timeout after the loss of a connection, the time within which a retry must succeed
   /// @param log receives one line
-  Reconnector(std::chrono::duration<double> timeout, std::function<void(const std::string&)> log);
+  Reconnector(Seconds timeout, std::function<void(const std::string&)> log);
 
   /// Calls `communicate` until it returns; after a lost connection calls `reconnect` before it calls it again.
   /// @param communicate, reconnect throw ConnectionError
@@ -24,7 +25,7 @@ class Reconnector {
  private:
   void waitAfter(const ConnectionError& error);
 
-  std::chrono::duration<double> timeout_;
+  Seconds timeout_;
   std::function<void(const std::string&)> log_;
   bool is_broken_ = false;
   Clock::time_point broken_since_;

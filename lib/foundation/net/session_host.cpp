@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/seconds.h"
 #include "net/server_session.h"
 
 namespace robosim {
@@ -29,7 +30,7 @@ void SessionHost::checkSessions() {
   }
   while (!handshakes_.empty() && now() >= nextDeadline()) {
     ServerSession& session = *handshakes_.front();
-    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(hello_deadline).count();
+    const auto ms = wholeMilliseconds(hello_deadline);
     session.disconnect(errorStatus(v1::ERROR_REASON_FIRST_MESSAGE_DEADLINE,
                                    "no " + std::string(session.rules_.first_message) + " within " + std::to_string(ms) +
                                        " ms of the call; send it at once, and call again"));

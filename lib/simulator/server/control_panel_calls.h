@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error_list.h"
+#include "base/seconds.h"
 #include "net/error_status.h"
 #include "net/stream_session.h"
 #include "net/unary_session.h"
@@ -202,8 +203,7 @@ class ControlPanelSession::Watcher final : public StreamSession<v1::WatchRequest
     if (!(s >= 0 && s <= 3600)) {
       throw WireError("a minimum interval of " + std::to_string(s) + " s; must lie in [0, 3600]");
     }
-    return std::max<ServingState::Clock::duration>(
-        kIntervalMin, std::chrono::duration_cast<ServingState::Clock::duration>(std::chrono::duration<double>(s)));
+    return std::max<ServingState::Clock::duration>(kIntervalMin, fromSeconds(s));
   }
 
   ReadPolicy received(const v1::WatchRequest& request) override {

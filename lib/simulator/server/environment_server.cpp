@@ -7,6 +7,7 @@
 #include <sched.h>
 
 #include "base/error_list.h"
+#include "base/seconds.h"
 #include "hardware/inbox_limit.h"
 #include "net/completion_queue_server.h"
 #include "server/control_panel_session.h"
@@ -20,10 +21,6 @@ namespace robosim {
 namespace {
 
 using Clock = ServingState::Clock;
-
-Clock::duration seconds(double s) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
 
 /// Processors that this process may run on.
 std::size_t processorsForUs() {
@@ -213,7 +210,7 @@ struct EnvironmentServer::Impl {
 
   void noteStep(double period_s) {
     if (run_control.steps_left > 0) --run_control.steps_left;
-    if (run_control.speed > 0) due += seconds(period_s / run_control.speed);
+    if (run_control.speed > 0) due += fromSeconds(period_s / run_control.speed);
     rate.note(serving.now());
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error_list.h"
+#include "base/seconds.h"
 #include "server/robot_hello.h"
 
 namespace robosim {
@@ -317,7 +318,7 @@ void RobotSession::disconnectLate() {
   const auto streams = streams_;  // disconnect() modifies the list
   for (const auto& stream : streams) {
     if (!is_late(stream)) continue;
-    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(serving_.step_deadline).count();
+    const auto ms = wholeMilliseconds(serving_.step_deadline);
     stream->disconnect(
         errorStatus(v1::ERROR_REASON_STEP_DEADLINE, "no answer to step " + std::to_string(stream->awaited_step) +
                                                         " within the step deadline of " + std::to_string(ms) +

@@ -12,6 +12,8 @@
 
 #include <mpi.h>
 
+#include "base/seconds.h"
+
 namespace robosim {
 namespace {
 
@@ -113,7 +115,7 @@ class MpiRanks final : public RankGroup {
 
   std::optional<RankMessage> receive(double wait_s) override {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::duration<double>(wait_s);
+    const auto end = Clock::now() + Seconds(wait_s);
     std::chrono::microseconds nap(20);
     int is_there = 0;
     MPI_Status status;

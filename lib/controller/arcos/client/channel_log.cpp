@@ -15,6 +15,7 @@
 #include "base/input_file.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "base/seconds.h"
 
 namespace robosim {
 namespace {
@@ -50,9 +51,9 @@ class LoggedChannel final : public ByteChannel {
   /// A disk that is full ends the log, and not the drive.
   void log(char direction, std::string_view bytes) {
     if (!file_) return;
-    const std::chrono::duration<double> since = now() - start_;
     std::ostringstream line;
-    line << std::fixed << std::setprecision(4) << since.count() << ' ' << direction << std::hex << std::setfill('0');
+    line << std::fixed << std::setprecision(4) << toSeconds(now() - start_) << ' ' << direction << std::hex
+         << std::setfill('0');
     for (const char byte : bytes) line << ' ' << std::setw(2) << unsigned{static_cast<unsigned char>(byte)};
     file_ << line.str() << '\n';
     if (!file_.flush())
@@ -123,9 +124,7 @@ class ReplayedChannel final : public ByteChannel {
     throw ChannelEnd(file_name_ + ": the log has ended");
   }
   void write(std::string_view) override {}
-  Clock::time_point now() const override {
-    return Clock::time_point{} + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s_));
-  }
+  Clock::time_point now() const override { return Clock::time_point{} + fromSeconds(time_s_); }
   std::optional<double> capacity() const override { return capacity_; }
   const std::string& name() const override { return name_; }
 

@@ -6,6 +6,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/seconds.h"
+
 namespace robosim {
 namespace {
 
@@ -58,7 +60,7 @@ class ThreadRank final : public RankGroup {
     std::unique_lock lock(shared_.mutex);
     auto& mailbox = shared_.mailboxes[own()];
     const auto has_mail = [&] { return !mailbox.empty(); };
-    if (!shared_.arrived.wait_for(lock, std::chrono::duration<double>(wait_s), has_mail)) return std::nullopt;
+    if (!shared_.arrived.wait_for(lock, Seconds(wait_s), has_mail)) return std::nullopt;
     RankMessage first = std::move(mailbox.front());
     mailbox.pop_front();
     return first;
