@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "aria/robot_list.h"
+#include "base/angle_units.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "base/xml_parser.h"
@@ -39,7 +40,7 @@ struct Checked {
 
 /// A pose in metres and degrees, to the millimetre and the tenth of a degree.
 std::string placeText(const mrpt::math::TPose2D& pose) {
-  return "at (" + fixed(pose.x, 3) + ", " + fixed(pose.y, 3) + ") m, heading " + fixed(pose.phi * 180 / M_PI, 1) + "°";
+  return "at (" + fixed(pose.x, 3) + ", " + fixed(pose.y, 3) + ") m, heading " + fixed(toDegrees(pose.phi), 1) + "°";
 }
 
 /// Name of the start pose that a map assigns to this robot: "start 1 of maps/office.map"; empty for a robot with its

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/xml_parser.h"
 
@@ -36,7 +37,7 @@ void addChanges(CLI::App& control, const std::function<void(const Change&)>& sup
 
   auto* place = add("place", "put a robot or an object elsewhere", [a]() -> Change {
     PlaceBody body{a->name, a->x_m, a->y_m, {}};
-    if (a->heading_deg) body.heading_rad = *a->heading_deg * M_PI / 180;
+    if (a->heading_deg) body.heading_rad = toRadians(*a->heading_deg);
     return body;
   });
   add_name(*place, "of the robot or object");

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "base/angle_units.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "console/team_events.h"
@@ -49,7 +50,7 @@ std::string statusText(const RemoteControl::Robot& robot) {
   if (news.update && news.is_up) {
     const Readings& readings = news.update->readings;
     line += fixed(readings.time.seconds(), 1) + " s, " + fixed(news.update->state.speed_mps(), 2) + " m/s, " +
-            fixed(news.update->state.turn_radps() * 180 / M_PI, 0) + " °/s";
+            fixed(toDegrees(news.update->state.turn_radps()), 0) + " °/s";
     double nearest_m = INFINITY;
     for (std::size_t i = 0; i < readings.measurements.size(); ++i) {
       const auto& measured = readings.measurements[i];

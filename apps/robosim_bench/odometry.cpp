@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/angle_units.h"
 #include "base/text_table.h"
 #include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
@@ -26,7 +27,6 @@ void benchOdometry(OdometryArguments arguments) {
   UmbmarkOptions& options = arguments.options;
   options.has_noise = !arguments.no_noise;
   const auto result = UmbmarkResult::of(driveUmbmark(options), options.side_m, options.wheels.wheelbase_m);
-  constexpr double kDegPerRad = 180 / M_PI;
   const nlohmann::ordered_json figures{
       {"clockwise_m", {result.clockwise_m.x, result.clockwise_m.y}},
       {"counter_clockwise_m", {result.counter_clockwise_m.x, result.counter_clockwise_m.y}},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle_units.h"
 #include "base/random.h"
 #include "geometry/testing/random_scene.h"
 
@@ -23,7 +24,7 @@ mrpt::math::TPose2D freePlace(Rng& rng, const std::vector<Solid>& solids) {
 
 }  // namespace
 
-double beamAngle(std::size_t i) { return (static_cast<double>(i) - 90) * M_PI / 180; }
+double beamAngle(std::size_t i) { return toRadians(static_cast<double>(i) - 90); }
 
 RayScene makeRayScene(std::size_t places, std::uint64_t seed) {
   constexpr std::size_t kOfEachKind = 500;

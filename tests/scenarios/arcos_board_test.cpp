@@ -10,6 +10,7 @@
 #include "arcos/protocol/simulator_packets.h"
 #include "arcos/protocol/sip.h"
 #include "arcos/protocol/testing/hex.h"
+#include "base/angle_units.h"
 #include "tests/scenarios/simulated_arcos_robot.h"
 
 namespace robosim {
@@ -152,15 +153,15 @@ TEST(ArcosBoard, TurnsToAHeadingTheShorterWayRound) {
   BoardProgram program;
   program.send(encodeCommand(command::head, 170));
   program.steps(60);
-  EXPECT_NEAR(program.robot.truePose().phi, 170 * M_PI / 180, 1e-6);
+  EXPECT_NEAR(program.robot.truePose().phi, toRadians(170), 1e-6);
   program.send(encodeCommand(command::head, -170));
   EXPECT_GT(program.steps(1).turn_rate, 0) << "counter-clockwise over 180°";
   program.steps(30);
-  EXPECT_NEAR(program.robot.truePose().phi, -170 * M_PI / 180, 1e-6);
+  EXPECT_NEAR(program.robot.truePose().phi, toRadians(-170), 1e-6);
   EXPECT_EQ(program.sip.heading, std::lround(-170.0 / 360 * 4096));
   program.send(encodeCommand(command::dhead, -20));
   program.steps(30);
-  EXPECT_NEAR(program.robot.truePose().phi, 170 * M_PI / 180, 1e-6);
+  EXPECT_NEAR(program.robot.truePose().phi, toRadians(170), 1e-6);
 }
 
 TEST(ArcosBoard, TurnsAtTheRateOfRvelAndOfTwoWheelSpeeds) {
@@ -288,7 +289,7 @@ TEST(ArcosBoard, ScansARoomFromTheRightToTheLeftAtTheRequestedResolution) {
     ASSERT_EQ(scan.size(), 18000u / static_cast<unsigned>(increment) + 1);
     EXPECT_EQ(scan.front(), 2500);
     for (std::size_t i = 0; i < scan.size(); ++i) {
-      const double angle = (-90 + static_cast<double>(i) * increment / 100) * M_PI / 180;
+      const double angle = toRadians(-90 + static_cast<double>(i) * increment / 100);
       const double ahead = std::cos(angle) > 1e-9 ? 2482 / std::cos(angle) : 1e9;
       const double aside = std::abs(std::sin(angle)) > 1e-9 ? 2500 / std::abs(std::sin(angle)) : 1e9;
       EXPECT_NEAR(scan[i], std::min(ahead, aside), 0.51) << i;

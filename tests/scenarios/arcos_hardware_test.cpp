@@ -8,6 +8,7 @@
 #include "arcos/client/open_channel.h"
 #include "arcos/protocol/command.h"
 #include "arcos/protocol/sip.h"
+#include "base/angle_units.h"
 #include "base/random.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/simulated_arcos_robot.h"
@@ -24,8 +25,6 @@ Command scripted(std::uint64_t step) {
   const std::size_t part = step / 50 % std::size(kSpeeds_mps);
   return {.speed_mps = kSpeeds_mps[part], .turn_radps = kTurns_radps[part]};
 }
-
-double degrees(double rad) { return rad * 180 / M_PI; }
 
 TEST(ArcosHardware, ReproducesTheTrajectoryOfLocalHardwareWithinTheRoundingOfPackets) {
   const auto environment = robotAlone("pioneer3dx");
@@ -45,8 +44,9 @@ TEST(ArcosHardware, ReproducesTheTrajectoryOfLocalHardwareWithinTheRoundingOfPac
     // the robot is then still reaching its new rate: at most 1 °/s for 0.1 s at each change of the command.
     // Up to 0.05° are still to be sent.
     const double turned_wrongly_deg = 0.1 * changes + 0.05;
-    EXPECT_NEAR(degrees(std::remainder(robot.truePose().phi - expected.phi, 2 * M_PI)), 0, turned_wrongly_deg) << step;
-    const double aside_m = turned_wrongly_deg * M_PI / 180 * state.driven_m[0] + 0.001;
+    EXPECT_NEAR(toDegrees(std::remainder(robot.truePose().phi - expected.phi, 2 * M_PI)), 0, turned_wrongly_deg)
+        << step;
+    const double aside_m = toRadians(turned_wrongly_deg) * state.driven_m[0] + 0.001;
     EXPECT_NEAR(robot.truePose().x, expected.x, aside_m) << step;
     EXPECT_NEAR(robot.truePose().y, expected.y, aside_m) << step;
     EXPECT_NEAR(robot.environment().state().driven_m[0], state.driven_m[0], 0.001) << step;
@@ -82,11 +82,11 @@ TEST(ArcosHardware, ReportsWhatTheRobotSensesInTheUnitsOfSimulatedRobots) {
         EXPECT_NEAR(odometry->odom_from_robot.y, exact.odom_from_robot.y, 0.001);
         EXPECT_NEAR(odometry->odom_from_robot.phi, exact.odom_from_robot.phi, 0.001);
         EXPECT_NEAR(odometry->speed_mps, exact.speed_mps, 0.001);
-        EXPECT_NEAR(degrees(odometry->turn_radps - exact.turn_radps), 0, 0.06);
+        EXPECT_NEAR(toDegrees(odometry->turn_radps - exact.turn_radps), 0, 0.06);
       } else if (sensor.kind == SensorKind::compass) {
         const double difference = std::get<Scalar>(hardware.readings().measurements[i]).value -
                                   std::get<Scalar>(expected.measurements[k]).value;
-        EXPECT_NEAR(degrees(std::remainder(difference, 2 * M_PI)), 0, 2.01) << "sent in units of 2°";
+        EXPECT_NEAR(toDegrees(std::remainder(difference, 2 * M_PI)), 0, 2.01) << "sent in units of 2°";
       } else if (sensor.kind == SensorKind::bumper) {
         EXPECT_EQ(std::get<Contacts>(hardware.readings().measurements[i]),
                   std::get<Contacts>(expected.measurements[k]));

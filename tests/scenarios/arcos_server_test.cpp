@@ -14,6 +14,7 @@
 #include "arcos/protocol/command.h"
 #include "arcos/protocol/simulator_packets.h"
 #include "arcos/protocol/sip.h"
+#include "base/angle_units.h"
 #include "base/portable_pose.h"
 #include "environment/testing/small_world.h"
 #include "environment/world_changes.h"
@@ -104,7 +105,7 @@ LoadedWorld openWorldWith(std::size_t robots) {
 // At 300 mm/s² and 100 °/s², a speed of v for a time t and the way to rest after it are v · t together; the turn comes
 // to rest within a step, before it reverses: 50° - 99° = -49°.
 void expectEndOfSimpleMotion(const mrpt::math::TPose2D& end) {
-  const double turned = -49 * M_PI / 180;
+  const double turned = toRadians(-49);
   EXPECT_NEAR(end.x, 1.25 + 0.75 * std::cos(turned), 1e-6);
   EXPECT_NEAR(end.y, 0.75 * std::sin(turned), 1e-6);
   EXPECT_NEAR(end.phi, turned, 1e-6);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/angle_units.h"
 #include "client/network_hardware.h"
 #include "client/viewer.h"
 #include "tests/scenarios/panel.h"
@@ -53,7 +54,7 @@ std::size_t cameraOf(const ServedWorld& world, std::size_t robot) {
 }
 
 // The camera of a pioneer3dx_camera is 0.12 m ahead of the centre; its picture of 320 pixels covers 48°.
-const double kFocal_px = 160 / std::tan(24 * M_PI / 180);
+const double kFocal_px = 160 / std::tan(toRadians(24));
 const double kGoldColumn = 160 - kFocal_px * 0.3 / 1.88;
 
 TEST(Camera, RecordsPicturesAtItsRate) {
@@ -72,7 +73,7 @@ TEST(Camera, RecordsPicturesAtItsRate) {
       // Gold has much more red than blue, unlike the background to its left. Its centre is 0.17 m below the camera,
       // which is pitched down by 8°.
       const auto column = static_cast<unsigned>(kGoldColumn);
-      const auto row = static_cast<unsigned>(120 + kFocal_px * std::tan(std::atan(0.17 / 1.88) - 8 * M_PI / 180));
+      const auto row = static_cast<unsigned>(120 + kFocal_px * std::tan(std::atan(0.17 / 1.88) - toRadians(8)));
       EXPECT_GT(*seen.image(column, row, 2) - *seen.image(column, row, 0), 80);
       EXPECT_LT(*seen.image(column - 30, row, 2) - *seen.image(column - 30, row, 0), 40);
     }

@@ -13,6 +13,7 @@
 #include <mrpt/serialization/CArchive.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/angle_units.h"
 #include "geometry/scene.h"
 #include "rendering/plan.h"
 #include "robots/fleet.h"
@@ -184,7 +185,7 @@ TEST(Export, WritesASceneOfMrptClasses) {
     ASSERT_TRUE(drawn) << robot.info.name;
     EXPECT_NEAR(drawn->getPose().x, robot.world_from_start.x, 1e-9);
     EXPECT_NEAR(drawn->getPose().y, robot.world_from_start.y, 1e-9);
-    EXPECT_NEAR(drawn->getPose().yaw, robot.world_from_start.phi, 1e-5 * M_PI / 180);
+    EXPECT_NEAR(drawn->getPose().yaw, robot.world_from_start.phi, toRadians(1e-5));
   }
 }
 

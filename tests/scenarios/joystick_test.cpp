@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/angle_units.h"
 #include "client/viewer.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/serving.h"
@@ -182,7 +183,7 @@ TEST_F(JoystickDrive, DrivesSwitchesAndIsRecorded) {
     const double turn_radps = status->AOUT_double[1];
     const bool is_pioneer = observation->sensorLabel == "Pioneer1/STATUS";
     drove_ahead |= is_pioneer && speed_mps == 1 && turn_radps == 0;  // full deflection: maximum speed of a Pioneer
-    turned_left |= is_pioneer && speed_mps == 0 && std::abs(turn_radps - 99.7 * M_PI / 180) < 1e-6;
+    turned_left |= is_pioneer && speed_mps == 0 && std::abs(turn_radps - toRadians(99.7)) < 1e-6;
     backed |= is_pioneer && std::abs(speed_mps + 0.1) < 1e-9;  // one press of button 4
     scout_drove |= observation->sensorLabel == "Scout1/STATUS" && speed_mps > 0;
   });

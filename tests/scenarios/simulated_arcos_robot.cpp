@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/angle_units.h"
 #include "environment/testing/small_world.h"
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
@@ -85,7 +86,7 @@ void SimulatedArcosRobot::step() {
 
 void SimulatedArcosRobot::setTruePose(const arcos::SimPose& pose) {
   const PlaceBody place{environment_->robotNames()[0], pose.x_mm / 1000.0, pose.y_mm / 1000.0,
-                        pose.heading_deg * M_PI / 180};
+                        toRadians(pose.heading_deg)};
   const std::string fault = environment_->apply({"ARCOS program", place});
   if (!fault.empty()) log(fault);
 }

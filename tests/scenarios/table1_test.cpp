@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "environment/environment.h"
 #include "robots/fleet.h"
 
@@ -27,9 +28,9 @@ std::vector<Row> table() {
     std::istringstream cells(line);
     std::vector<double> numbers;
     for (std::string cell; numbers.size() < 23 && std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
-    Row row{static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[4] * M_PI / 180}, {}};
+    Row row{static_cast<int>(numbers[0]), {numbers[1], numbers[2], toRadians(numbers[4])}, {}};
     // The report has 170; only 190 agrees with the position of the gold in rows 8 and 9 and with the heat.
-    if (row.number == 10) row.pose.phi = 190 * M_PI / 180;
+    if (row.number == 10) row.pose.phi = toRadians(190);
     row.readings.assign(numbers.begin() + 5, numbers.end());
     rows.push_back(row);
   }

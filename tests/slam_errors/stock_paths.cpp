@@ -12,6 +12,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include "base/angle_units.h"
 #include "base/random.h"
 #include "recording/observation_writer.h"
 #include "tests/stock_tools.h"
@@ -154,7 +155,7 @@ RobotPath localizationPath(const ScanSeries& series, const mrpt::maps::COccupanc
   for (auto i = output.find(before); i != std::string::npos; i = output.find(before, i + 1)) {
     TPose2D pose;
     if (std::sscanf(output.c_str() + i + before.size(), "%lf,%lf,%lf", &pose.x, &pose.y, &pose.phi) == 3) {
-      pose.phi *= M_PI / 180;
+      pose.phi *= kRadPerDeg;
       path.push_back(pose);
     }
   }

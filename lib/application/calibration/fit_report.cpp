@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle_units.h"
 #include "base/html_table.h"
 #include "base/html_text.h"
 #include "base/report_page.h"
@@ -79,7 +80,7 @@ std::string excludedOf(const ScannerFit& fit) {
     if (pair.is_at_rest || fit.criterion == RestCriterion::odometry) continue;
     has_any = true;
     table.add({std::to_string(pair.first) + " and " + std::to_string(pair.first + 1),
-               fixed(fit.series.scans[pair.first].time_s, 2), fixed(pair.turned_rad * 180 / M_PI, 3),
+               fixed(fit.series.scans[pair.first].time_s, 2), fixed(toDegrees(pair.turned_rad), 3),
                fixed(std::abs(pair.turned_t), 1)});
   }
   return has_any ? table.html() : "<p>No pair at unchanged odometry was excluded.</p>\n";

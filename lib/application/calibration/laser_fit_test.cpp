@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/random.h"
 #include "calibration/beam_model.h"
@@ -15,7 +16,7 @@ namespace {
 
 /// Scans of a scanner of 181 beams with these errors, in front of walls at 1 m … 10 m.
 ScanSeries standingSeries(std::size_t scans, const LaserErrors& errors) {
-  ScanSeries series{.label = "laser", .step_rad = M_PI / 180, .first_rad = -M_PI / 2, .range_max_m = 30, .scans = {}};
+  ScanSeries series{.label = "laser", .step_rad = kRadPerDeg, .first_rad = -M_PI / 2, .range_max_m = 30, .scans = {}};
   Rng rng(3);
   const ErrorProcess process(errors, {.kind = SensorKind::laser, .label = "", .beams = {}, .range_max_m = 30});
   for (std::size_t k = 0; k < scans; ++k) {
@@ -137,7 +138,7 @@ TEST(StandingPairs, ExcludeAPairThatTheRobotTurnedInBetween) {
   const auto pairs = standingPairs(series);
   ASSERT_EQ(pairs.size(), 19u);
   for (const auto& pair : pairs) EXPECT_EQ(pair.is_at_rest, pair.first != 9) << pair.first;
-  EXPECT_NEAR(pairs[9].turned_rad, 0.5 * M_PI / 180, 0.1 * M_PI / 180);
+  EXPECT_NEAR(pairs[9].turned_rad, toRadians(0.5), toRadians(0.1));
 }
 
 TEST(PairStatistics, CountJumpsAndChangesOfValidity) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "base/interrupt.h"
 #include "base/random.h"
 #include "calibration/laser_fit.h"
@@ -24,13 +25,13 @@ double wallOf(const mrpt::math::TPose2D& pose, double bearing_rad) {
 
 /// Twenty scans with noise of `std_m`, from a robot that drives with odometry 10 % too long.
 ScanSeries drivingSeries(double std_m) {
-  ScanSeries series{.label = "laser", .step_rad = M_PI / 180, .first_rad = -M_PI / 2, .range_max_m = 20, .scans = {}};
+  ScanSeries series{.label = "laser", .step_rad = kRadPerDeg, .first_rad = -M_PI / 2, .range_max_m = 20, .scans = {}};
   Rng rng(2);
   for (int k = 0; k < 20; ++k) {
     const mrpt::math::TPose2D pose(-1 + 0.1 * k, 0.05 * k, 0.03 * k);
     RecordedScan scan;
     scan.odometry = mrpt::math::TPose2D(-1 + 0.11 * k, 0.05 * k, 0.032 * k);
-    for (int i = 0; i < 181; ++i) scan.ranges_m.push_back(wallOf(pose, (i - 90) * M_PI / 180) + std_m * rng.gaussian());
+    for (int i = 0; i < 181; ++i) scan.ranges_m.push_back(wallOf(pose, toRadians(i - 90)) + std_m * rng.gaussian());
     series.scans.push_back(std::move(scan));
   }
   return series;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
@@ -272,7 +273,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   const LaserErrors& e = fit.model.errors;
   XmlElement laser{"laser", "", {}, {}, {}};
   const std::size_t beams = fit.series.scans.front().ranges_m.size();
-  const double field_deg = fit.series.step_rad * static_cast<double>(beams - 1) * 180 / M_PI;
+  const double field_deg = toDegrees(fit.series.step_rad * static_cast<double>(beams - 1));
   laser.attributes = {{"beams", std::to_string(beams)}};
   if (field_deg > 0 && field_deg <= 360) laser.attributes.emplace_back("field_of_view_deg", fixed(field_deg, 4));
   if (fit.series.range_max_m > 0 && fit.series.range_max_m <= 1000) {

@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
@@ -103,7 +104,7 @@ std::string namesOf(const std::vector<MountedScanner>& all) {
     names += (names.empty() ? "'" : ", '") + quotable(scanner.series.label) + "'";
     if (scanner.series.label == scanner.label) continue;
     const auto& pose = scanner.series.robot_from_scanner;
-    names += " at (" + fixed(pose.x, 2) + ", " + fixed(pose.y, 2) + ") m, " + fixed(pose.phi * 180 / M_PI, 0) + "°";
+    names += " at (" + fixed(pose.x, 2) + ", " + fixed(pose.y, 2) + ") m, " + fixed(toDegrees(pose.phi), 0) + "°";
   }
   return names;
 }

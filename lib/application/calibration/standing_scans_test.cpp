@@ -9,6 +9,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/temporary_directory.h"
 
@@ -47,7 +48,6 @@ class RecordedScans : public testing::Test {
   }
 
   static mrpt::poses::CPose3D mounted(double x_m, double yaw_deg, double pitch_deg, double roll_deg) {
-    constexpr double kRadPerDeg = M_PI / 180;
     return mrpt::poses::CPose3D(x_m, 0, 0.2, yaw_deg * kRadPerDeg, pitch_deg * kRadPerDeg, roll_deg * kRadPerDeg);
   }
 

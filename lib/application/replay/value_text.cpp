@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservationRawDAQ.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
+#include "base/angle_units.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "hardware/measurement_fields.h"
@@ -49,7 +50,7 @@ std::string inWords(const ObservedNumbers& numbers) {
       text += (text.empty() ? "" : " ") + index + inWords(number, 2) + unit;
     } else if (symbol == kRadian.symbol && std::holds_alternative<double>(number.value)) {
       text +=
-          (text.empty() ? "" : ", ") + number.name + " " + fixed(std::get<double>(number.value) * 180 / M_PI, 1) + "°";
+          (text.empty() ? "" : ", ") + number.name + " " + fixed(toDegrees(std::get<double>(number.value)), 1) + "°";
     } else {
       text += (text.empty() ? "" : ", ") + number.name + " " + inWords(number, symbol == kDegree.symbol ? 7 : 3) + unit;
     }
@@ -161,7 +162,7 @@ std::string unsafeWords(const CObservation& observation, const SensorInfo* senso
   }
   if (const auto* daq = dynamic_cast<const CObservationRawDAQ*>(&observation)) return inWords(*daq, sensor);
   if (const auto pose = poseIn(observation)) {
-    return "x " + fixed(pose->x, 3) + " m, y " + fixed(pose->y, 3) + " m, heading " + fixed(pose->phi * 180 / M_PI, 1) +
+    return "x " + fixed(pose->x, 3) + " m, y " + fixed(pose->y, 3) + " m, heading " + fixed(toDegrees(pose->phi), 1) +
            "°";
   }
   return classOf(observation);

@@ -16,6 +16,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 
+#include "base/angle_units.h"
 #include "hardware/neighbour_quantities.h"
 #include "recording/cone_aperture.h"
 #include "viewing/foreign_cloud.h"
@@ -240,19 +241,19 @@ Geodetic observedPosition(const CObservation& observation) {
 
 mrpt::math::TPoint2D localMetres(const Geodetic& origin, const Geodetic& position) {
   constexpr double kEquator_m = 6378137, kFlattening = 1 / 298.257223563;  // WGS 84
-  constexpr double kEccentricity2 = kFlattening * (2 - kFlattening), kRadian_deg = M_PI / 180;
+  constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
   struct Axes {
     double x, y, z;
   };
   const auto fixed_to_earth = [&](const Geodetic& at) -> Axes {
-    const double latitude = at.latitude_deg * kRadian_deg, longitude = at.longitude_deg * kRadian_deg;
+    const double latitude = at.latitude_deg * kRadPerDeg, longitude = at.longitude_deg * kRadPerDeg;
     const double normal_m = kEquator_m / std::sqrt(1 - kEccentricity2 * std::sin(latitude) * std::sin(latitude));
     return {normal_m * std::cos(latitude) * std::cos(longitude), normal_m * std::cos(latitude) * std::sin(longitude),
             normal_m * (1 - kEccentricity2) * std::sin(latitude)};
   };
   const Axes from = fixed_to_earth(origin), to = fixed_to_earth(position);
   const double x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
-  const double latitude = origin.latitude_deg * kRadian_deg, longitude = origin.longitude_deg * kRadian_deg;
+  const double latitude = origin.latitude_deg * kRadPerDeg, longitude = origin.longitude_deg * kRadPerDeg;
   return {-std::sin(longitude) * x + std::cos(longitude) * y,
           -std::sin(latitude) * (std::cos(longitude) * x + std::sin(longitude) * y) + std::cos(latitude) * z};
 }

@@ -4,6 +4,7 @@
 
 #include "aria/pioneer_robot.h"
 #include "aria/pioneer_units.h"
+#include "base/angle_units.h"
 
 namespace robosim {
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "aria/pioneer_units.h"
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 
 namespace robosim {

@@ -8,6 +8,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include "aria/pioneer_units.h"
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
 #include "control/echo.h"

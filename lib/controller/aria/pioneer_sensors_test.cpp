@@ -1,16 +1,13 @@
 #include "aria/pioneer_sensors.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "aria/pioneer_robot.h"
+#include "base/angle_units.h"
 #include "control/testing/fake_hardware.h"
 
 namespace robosim {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180;
 
 TEST(PioneerSensors, ReturnAriasValuesWithoutTheSensor) {
   FakeHardware hardware;
@@ -29,12 +26,12 @@ TEST(PioneerSensors, ReturnAriasValuesWithoutTheSensor) {
 TEST(PioneerSensors, ReportCompassAndBattery) {
   FakeHardware hardware;
   hardware.addSensor(SensorKind::battery, {}, Scalar{12.5});
-  const std::size_t compass = hardware.addSensor(SensorKind::compass, {}, Scalar{-90 * kDeg});
+  const std::size_t compass = hardware.addSensor(SensorKind::compass, {}, Scalar{-90 * kRadPerDeg});
   Robot robot(hardware);
   const PioneerSensors sensors(robot);
   EXPECT_EQ(sensors.getBatteryVoltage(), 12.5);
   EXPECT_NEAR(sensors.getCompass(), 270, 1e-9);
-  hardware.mutableReadings().measurements[compass] = Scalar{45 * kDeg};
+  hardware.mutableReadings().measurements[compass] = Scalar{45 * kRadPerDeg};
   EXPECT_NEAR(sensors.getCompass(), 45, 1e-9);
 }
 
@@ -64,9 +61,9 @@ TEST(PioneerSensors, ReportTheStateOfTheBase) {
 TEST(PioneerSensors, NumberBumpersClockwiseFromTheLeft) {
   FakeHardware hardware;
   // Front: 60° (0), 0° (1), -60° (2). Behind, from right to left: -120° (0), 180° (1), 120° (2).
-  const std::size_t slot =
-      hardware.addSensor(SensorKind::bumper, {0, 60 * kDeg, 120 * kDeg, 180 * kDeg, -120 * kDeg, -60 * kDeg},
-                         Contacts{{0, 0, 0, 0, 0, 0}});
+  const std::size_t slot = hardware.addSensor(
+      SensorKind::bumper, {0, 60 * kRadPerDeg, 120 * kRadPerDeg, 180 * kRadPerDeg, -120 * kRadPerDeg, -60 * kRadPerDeg},
+      Contacts{{0, 0, 0, 0, 0, 0}});
   Robot robot(hardware);
   const PioneerSensors sensors(robot);
   EXPECT_EQ(sensors.getNumFrontBumpers(), 3);
@@ -90,7 +87,7 @@ TEST(PioneerSensors, NumberBumpersClockwiseFromTheLeft) {
 
 TEST(PioneerSensors, FindTheTurnTowardsAPlace) {
   FakeHardware hardware;
-  hardware.mutableOdometry().odom_from_robot = {1, 0, 170 * kDeg};
+  hardware.mutableOdometry().odom_from_robot = {1, 0, 170 * kRadPerDeg};
   Robot robot(hardware);
   const PioneerSensors sensors(robot);
   const PioneerPose place{.x = 1000, .y = -500, .th = 0};

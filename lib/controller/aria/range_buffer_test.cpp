@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
+
 namespace robosim {
 namespace {
 
@@ -106,9 +108,9 @@ TEST(RangeBuffer, AgreesWithAPlainSearchOnRandomPoints) {
     double polar = 1e9, box = 1e9;
     for (const RangePoint& point : buffer.getBuffer()) {
       const double distance = std::hypot(point.x - robot.x, point.y - robot.y);
-      const double bearing = std::atan2(point.y - robot.y, point.x - robot.x) - robot.th * M_PI / 180;
+      const double bearing = std::atan2(point.y - robot.y, point.x - robot.x) - toRadians(robot.th);
       const double x = distance * std::cos(bearing), y = distance * std::sin(bearing);
-      if (isInSector(bearing * 180 / M_PI, from, to)) polar = std::min(polar, distance);
+      if (isInSector(toDegrees(bearing), from, to)) polar = std::min(polar, distance);
       if ((x - x1) * (x - x2) <= 0 && (y - y1) * (y - y2) <= 0) box = std::min(box, distance);
     }
     const auto found_polar = buffer.getClosestPolar(from, to, robot);

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "base/angle_units.h"
 #include "base/portable_pose.h"
 
 namespace robosim {
 namespace {
 
 constexpr double kTenthInch_m = 0.00254;
-constexpr double kTenthDeg_rad = std::numbers::pi / 1800;
+constexpr double kTenthDeg_rad = 0.1 * kRadPerDeg;
 /// A wheel's travel for a turn of one radian [m]: half the Scout's track, from Nomadic's 0.118597 inches a degree.
-constexpr double kHalfTrack_m = 0.118597 * 0.0254 * 180 / std::numbers::pi;
+constexpr double kHalfTrack_m = toDegrees(0.118597 * 0.0254);
 
 long toTenthInches(double metres) { return std::lround(metres / kTenthInch_m); }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "control/testing/fake_hardware.h"
 
 namespace robosim {
@@ -37,7 +38,7 @@ TEST(ScoutRobot, TurnsWithTheNomadsTrackWidth) {
   s.scout.vm(100 + 53, 100 - 53, 0);
   s.steps(20);
   EXPECT_NEAR(s.hardware.odometry().speed_mps, 0.254, 1e-9);
-  EXPECT_NEAR(s.hardware.odometry().turn_radps * 180 / M_PI, 5.3 / 0.118597, 1e-6);
+  EXPECT_NEAR(toDegrees(s.hardware.odometry().turn_radps), 5.3 / 0.118597, 1e-6);
   EXPECT_EQ(s.scout.State[STATE_VEL_RIGHT], 153);
   EXPECT_EQ(s.scout.State[STATE_VEL_LEFT], 47);
   EXPECT_EQ(s.scout.State[STATE_MOTOR_STATUS], 1);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/angle_units.h"
 #include "base/portable_pose.h"
 #include "base/random.h"
 #include "maze/laser_surfaces.h"
@@ -50,7 +51,7 @@ TEST(ScanMatcher, CorrectsTheDriftOfTheOdometry) {
 
 TEST(PoseFilter, EstimatesTheDeviationOfTheCompassByTheOdometry) {
   // Without the estimate, the heading would be off by up to 12°, twice the amplitude.
-  constexpr double kAmplitude_rad = 6 * M_PI / 180;
+  constexpr double kAmplitude_rad = toRadians(6);
   Rng rng(3);
   PoseFilter filter;
   double truth = 0, squares = 0;
@@ -64,7 +65,7 @@ TEST(PoseFilter, EstimatesTheDeviationOfTheCompassByTheOdometry) {
     const double off = mrpt::math::wrapToPi(filter.startFromRobot().phi - truth);
     if (i >= 2000) squares += off * off / 1000;
   }
-  EXPECT_LT(std::sqrt(squares), 2 * M_PI / 180);
+  EXPECT_LT(std::sqrt(squares), toRadians(2));
 }
 
 TEST(SurfaceMap, DistinguishesTheSidesOfAThinWall) {
@@ -94,7 +95,7 @@ struct Beams {
   Beams(const std::vector<double>& bearings_deg, const std::vector<double>& ranges_m) {
     sensor.range_max_m = sensor.no_echo_m = 5;
     for (std::size_t i = 0; i < bearings_deg.size(); ++i) {
-      const double yaw = bearings_deg[i] * M_PI / 180;
+      const double yaw = toRadians(bearings_deg[i]);
       auto& beam = sensor.beams.emplace_back();
       beam.robot_from_beam.yaw = yaw;
       auto& echo = echoes.emplace_back();
@@ -111,7 +112,7 @@ TEST(LaserSurfaces, FaceTheRobot) {
   std::vector<double> bearings_deg, ranges_m;
   for (int i = -4; i <= 4; ++i) {
     bearings_deg.push_back(2 * i);
-    ranges_m.push_back(2 / std::cos(2 * i * M_PI / 180));  // a wall 2 m ahead
+    ranges_m.push_back(2 / std::cos(toRadians(2 * i)));  // a wall 2 m ahead
   }
   const Beams scan(bearings_deg, ranges_m);
   std::vector<SurfacePoint> points;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "control/echo.h"
 
@@ -29,9 +30,8 @@ Nearest nearestBetween(const Robot& robot, double from_rad, double to_rad) {
   return nearest;
 }
 
-constexpr double kDeg = std::numbers::pi / 180;
-constexpr double kTurnFraction = 0.6;         // fraction of the maximum turn rate, before an obstacle
-constexpr double kTouchTurn_rad = 60 * kDeg;  // away from a contact
+constexpr double kTurnFraction = 0.6;               // fraction of the maximum turn rate, before an obstacle
+constexpr double kTouchTurn_rad = 60 * kRadPerDeg;  // away from a contact
 constexpr double kTouchAhead_s = 1;
 
 }  // namespace
@@ -41,8 +41,8 @@ void WallFollower::step(Robot& robot) {
   const MotionLimits& limits = robot.info().limits;
   const double radius = robot.info().radius_m;
   const double distance = options_.distance_radii * radius;
-  const Nearest ahead = nearestBetween(robot, -35 * kDeg, 35 * kDeg);
-  const Nearest right = nearestBetween(robot, -150 * kDeg, -20 * kDeg);
+  const Nearest ahead = nearestBetween(robot, -35 * kRadPerDeg, 35 * kRadPerDeg);
+  const Nearest right = nearestBetween(robot, -150 * kRadPerDeg, -20 * kRadPerDeg);
   // In front of an obstacle it stops at the wall's distance, and turns left on the spot.
   const double braking = std::sqrt(2 * limits.decel_mps2 * std::max(0.0, ahead.clearance_m - 0.8 * distance));
   const double cruise = std::min(0.6 * limits.speed_max_mps, braking);

@@ -10,6 +10,7 @@
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
 
+#include "base/angle_units.h"
 #include "base/testing/test_folder.h"
 #include "recording/byte_archive.h"
 #include "recording/jpeg_observation.h"
@@ -117,7 +118,7 @@ TEST(Measurements, ReadAnEchoAtTheMaximumRangeAsNoEcho) {
 
 TEST(Measurements, PlaceAWideSonarsPointOnItsAxis) {
   auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.5, 0, 0.2, M_PI / 2)}, 5, 5);
-  sonar.beam_width_rad = 20 * M_PI / 180;
+  sonar.beam_width_rad = toRadians(20);
   const Echo off_axis{2, {0.5f + 2 * 0.1f, 2 * 0.995f, 0.2f}};
   const auto echo = std::get<Echoes>(thereAndBack(sonar, Echoes{off_axis}))[0];
   EXPECT_EQ(echo.range_m, 2.0f);

@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/angle_units.h"
 #include "base/log.h"
 #include "base/random.h"
 #include "base/xml_element.h"
@@ -212,7 +213,7 @@ AddedRobot AddedRobot::parse(const std::string& text) {
     begin = end + 1;
   }
   if (numbers.size() != 2 && numbers.size() != 3) throw error();
-  const double heading_rad = numbers.size() == 3 ? numbers[2] * M_PI / 180 : 0;
+  const double heading_rad = numbers.size() == 3 ? toRadians(numbers[2]) : 0;
   return {text.substr(0, at), mrpt::math::TPose2D(numbers[0], numbers[1], heading_rad)};
 }
 

@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/angle_units.h"
+
 namespace robosim {
 namespace {
 
@@ -27,7 +29,7 @@ struct Painting {
   }
 };
 
-TargetColor gold() { return {.name = "gold", .hue_rad = 47 * M_PI / 180}; }
+TargetColor gold() { return {.name = "gold", .hue_rad = toRadians(47)}; }
 TargetColor red() { return {.name = "red", .hue_rad = 0}; }
 
 Blob onlyBlob(const std::string& jpeg, const TargetColor& color, unsigned pixels_min = 4) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/testing/test_folder.h"
 #include "hardware/sensor_info.h"
@@ -146,7 +147,7 @@ TEST_F(FigurePageTest, HasATranslucentPolygonForEachSonarAndOneForAScan) {
     sonars.push_back({.range_m = 1.5, .point_m = {1.5, 0, 0}});
   }
   for (int i = 0; i < 181; ++i) {
-    const double angle_rad = (i - 90) * M_PI / 180;
+    const double angle_rad = toRadians(i - 90);
     laser.beams.emplace_back().robot_from_beam.yaw = angle_rad;
     scan.push_back(
         {.range_m = 2,

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/angle_units.h"
 #include "base/random.h"
 #include "geometry/scene.h"
 #include "rendering/blob_search.h"
@@ -251,7 +252,7 @@ TEST(OffscreenRenderer, DrawsGoldWithAMetallicMaterial) {
   const cv::Mat picture = renderer.picture(kCamera, at(0, -1, 0.5, M_PI / 2), {});
   std::vector<unsigned char> bytes;
   cv::imencode(".jpg", picture, bytes);
-  const auto blobs = findBlobs({bytes.begin(), bytes.end()}, {{.name = "gold", .hue_rad = 47 * M_PI / 180}}, 4);
+  const auto blobs = findBlobs({bytes.begin(), bytes.end()}, {{.name = "gold", .hue_rad = toRadians(47)}}, 4);
   EXPECT_NEAR(blobs[0].x_px, 159.5, 1);
   EXPECT_NEAR(blobs[0].width_px, 2 * 160 * 0.2 / std::sqrt(4 - 0.04), 3);
   EXPECT_NEAR(blobs[0].height_px, 2 * 160 * 0.5 / 1.8, 3);
@@ -292,7 +293,7 @@ TEST(OffscreenRenderer, DrawsOtherRobots) {
     std::vector<std::string> jpegs(2);
     const std::vector<std::uint32_t> both{0, 1};
     renderer.take(camera, starts(two.fleet), both, jpegs);
-    const TargetColor red{.name = "red", .hue_rad = 0}, green{.name = "green", .hue_rad = 128 * M_PI / 180};
+    const TargetColor red{.name = "red", .hue_rad = 0}, green{.name = "green", .hue_rad = toRadians(128)};
     const auto seen_by_a = findBlobs(jpegs[0], {red, green}, 20), seen_by_b = findBlobs(jpegs[1], {red, green}, 20);
     // Each sees the other straight ahead, in its colour. The distance is 1.2 m, so that a robot's width of 0.4 m is
     // about 50 pixels.

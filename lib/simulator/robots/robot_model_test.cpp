@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "base/xml_parser.h"
 
 namespace robosim {
@@ -15,7 +16,6 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-constexpr double kRadPerDeg = M_PI / 180;
 const std::filesystem::path kTypesFolder = ROBOSIM_SOURCE_DIR "/worlds/robots";
 
 const std::string kBody = "<body radius_m='0.2' height_m='0.4'/>";

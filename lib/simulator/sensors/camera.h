@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "base/angle_units.h"
 #include "base/xml_reader.h"
 #include "sensors/image_source.h"
 #include "sensors/sensor.h"
@@ -11,7 +12,7 @@ namespace robosim {
 /// A colour camera. The Snapshot's ImageSource renders its pictures; without an ImageSource it takes none.
 struct CameraOptions {
   std::string label = "camera";
-  CameraView view{.info = {.width_px = 320, .height_px = 240, .field_of_view_rad = 60 * (M_PI / 180), .rate_hz = 10},
+  CameraView view{.info = {.width_px = 320, .height_px = 240, .field_of_view_rad = 60 * kRadPerDeg, .rate_hz = 10},
                   .robot_from_camera = {},
                   .jpeg_quality = 85};
 

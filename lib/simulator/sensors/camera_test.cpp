@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/blob_finder.h"
 #include "sensors/testing/single_robot_scene.h"
 
@@ -66,7 +67,7 @@ TEST(Camera, ReportsItsMountingPoseAndOptics) {
   EXPECT_EQ(info.label, "front");
   ASSERT_EQ(info.beams.size(), 1u);
   EXPECT_EQ(info.beams[0].robot_from_beam, mrpt::math::TPose3D(0.1, 0, 0.3, 0, 0, 0));
-  EXPECT_EQ(info.camera, (CameraInfo{320, 240, 60 * (M_PI / 180), 2}));
+  EXPECT_EQ(info.camera, (CameraInfo{320, 240, 60 * kRadPerDeg, 2}));
   EXPECT_EQ(std::get<Image>(camera->blank()), Image{});
 }
 

@@ -4,6 +4,8 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/angle_units.h"
+
 namespace robosim {
 namespace {
 
@@ -40,10 +42,10 @@ CompassOptions CompassOptions::read(XmlReader& reader) {
   CompassOptions o;
   o.label = reader.word("label", o.label);
   if (auto element = reader.child("noise")) {
-    o.noise_std_rad = element->angle("std_deg", Bounds::notNegative(180), 2 * M_PI / 180);
+    o.noise_std_rad = element->angle("std_deg", Bounds::notNegative(180), 2 * kRadPerDeg);
     o.deviation = CompassDeviation::read(*element);
     constexpr double kHour_s = 3600;
-    o.gyro_drift_radps = element->number("gyro_drift_deg_per_h", {-36000, 36000}, 0) * M_PI / 180 / kHour_s;
+    o.gyro_drift_radps = toRadians(element->number("gyro_drift_deg_per_h", {-36000, 36000}, 0)) / kHour_s;
     element->finish();
   }
   return o;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
@@ -119,7 +120,7 @@ TEST(LaserErrors, AreIndependentBetweenBeamsAndSteps) {
   double beams = 0, steps = 0, last_m = 0;
   for (int i = 0; i < n; ++i) {
     const auto ranges = robot.ranges(*laser);
-    const double true_m = 2 / std::cos(0.5 * M_PI / 180);
+    const double true_m = 2 / std::cos(toRadians(0.5));
     beams += (ranges[0] - true_m) * (ranges[1] - true_m) / 1e-4;
     steps += (ranges[0] - true_m) * last_m / 1e-4;
     last_m = ranges[0] - true_m;

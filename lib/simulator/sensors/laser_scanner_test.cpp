@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/swept_pose.h"
 #include "sensors/testing/single_robot_scene.h"
 
@@ -12,7 +13,6 @@ namespace robosim {
 namespace {
 
 constexpr double kTolerance_m = 1e-6;
-constexpr double kRadPerDeg = M_PI / 180;
 
 // A beam straight ahead along the edge of a near box: the footprint of ±1° is half on the box, 2 m ahead, and half on
 // the wall, 3 m ahead.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
@@ -43,7 +44,7 @@ TEST(LaserTypes, DocumentedScannersHaveTheGeometryOfTheirDataSheets) {
     EXPECT_TRUE(laser->isNoisy()) << name;
     ASSERT_EQ(info.beams.size(), sheet.beams) << name;
     const double field_rad = info.beams.back().robot_from_beam.yaw - info.beams.front().robot_from_beam.yaw;
-    EXPECT_NEAR(field_rad * 180 / M_PI / static_cast<double>(sheet.beams - 1), sheet.step_deg, 1e-4) << name;
+    EXPECT_NEAR(toDegrees(field_rad) / static_cast<double>(sheet.beams - 1), sheet.step_deg, 1e-4) << name;
     EXPECT_DOUBLE_EQ(info.range_min_m, sheet.range_min_m);
     EXPECT_DOUBLE_EQ(info.range_max_m, sheet.range_max_m);
   }

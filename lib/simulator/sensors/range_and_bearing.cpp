@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "geometry/shapes/path.h"
 #include "hardware/neighbour_quantities.h"
@@ -130,7 +131,7 @@ std::unique_ptr<Sensor> readRangeAndBearing(XmlReader& reader, const Mount&) {
   o.info.beams.push_back(planarBeam(0, 0, o.z_m, 0));
   if (auto noise = reader.child("noise")) {
     o.noise = RangeNoise::read(*noise, {.on = true, .std_m = 0.05});
-    o.bearing_std_rad = noise->angle("bearing_std_deg", {0, 180}, 5 * M_PI / 180);
+    o.bearing_std_rad = noise->angle("bearing_std_deg", {0, 180}, 5 * kRadPerDeg);
     o.info.noise_std_m = o.noise.stdAt(o.info.range_max_m);
     o.info.bearing_std_rad = o.bearing_std_rad;
     noise->finish();

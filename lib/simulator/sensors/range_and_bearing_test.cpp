@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "sensors/testing/single_robot_scene.h"
 
@@ -99,7 +100,7 @@ TEST(RangeAndBearing, NoiseHasTheGivenDeviations) {
     bearing_squares += std::pow(neighbours[0].bearing_rad, 2);
   }
   // The standard error of a deviation is 1/89 of it. Bounds are four of them.
-  const double bearing_std_rad = 10 * M_PI / 180;
+  const double bearing_std_rad = toRadians(10);
   EXPECT_NEAR(std::sqrt(range_squares / kSamples), 0.1, 4 * 0.1 / 89);
   EXPECT_NEAR(std::sqrt(bearing_squares / kSamples), bearing_std_rad, 4 * bearing_std_rad / 89);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/infrared_curve.h"
 #include "sensors/testing/single_robot_scene.h"
 
@@ -13,9 +14,9 @@ double valueOf(SingleRobotScene& robot, const Sensor& sensor) { return std::get<
 
 TEST(CompassDeviation, IsASinusoidOncePerTurnOfHardIronAndTwicePerTurnOfSoftIron) {
   const auto error_deg = [](const char* noise, double heading_deg) {
-    SingleRobotScene robot({}, {0, 0, heading_deg * M_PI / 180});
+    SingleRobotScene robot({}, {0, 0, toRadians(heading_deg)});
     const auto compass = sensorFrom(std::string("<compass><noise std_deg='0' ") + noise + "/></compass>");
-    return std::remainder(valueOf(robot, *compass) * 180 / M_PI - heading_deg, 360);
+    return std::remainder(toDegrees(valueOf(robot, *compass)) - heading_deg, 360);
   };
   const char* hard = "hard_iron_deg='10' hard_iron_at_deg='30'";
   EXPECT_NEAR(error_deg(hard, 30), 0, 1e-9);
@@ -34,7 +35,7 @@ TEST(GyroDrift, GrowsInProportionToTheTime) {
   EXPECT_FALSE(gyro->isNoisy()) << "not random";
   SingleRobotScene robot({}, {0, 0, M_PI / 2});
   const double first_rad = valueOf(robot, *gyro);
-  EXPECT_NEAR(first_rad, M_PI / 2, 0.11 * M_PI / 180);
+  EXPECT_NEAR(first_rad, M_PI / 2, toRadians(0.11));
   double last_rad = first_rad;
   for (int step = 0; step < 600; ++step) last_rad = valueOf(robot, *gyro);
   EXPECT_NEAR(last_rad, first_rad - M_PI / 3, 1e-9);

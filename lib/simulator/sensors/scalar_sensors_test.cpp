@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/bumper.h"
 #include "sensors/compass.h"
 #include "sensors/heat.h"
@@ -68,7 +69,7 @@ std::pair<double, double> meanAndSpread(SingleRobotScene& robot, const Sensor& s
 // With 4,000 samples, the mean's standard error is 1/63 of the spread, the spread's 1/89: bounds are four of them.
 TEST(Compass, NoiseOfTheDataSheetIsTwoDegreesAboutTheTrueHeading) {
   SingleRobotScene robot({}, {0, 0, 3});
-  const double std_rad = 2 * M_PI / 180;
+  const double std_rad = toRadians(2);
   const auto error = [](double heading_rad) { return std::remainder(heading_rad - 3, 2 * M_PI); };
   const auto [mean, spread] = meanAndSpread(robot, *sensorFrom("<compass><noise/></compass>"), error);
   EXPECT_NEAR(mean, 0, 4 * std_rad / 63);

@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/angle_units.h"
 #include "base/xml_reader.h"
 #include "sensors/registry.h"
 #include "sensors/sensor.h"
@@ -24,7 +25,7 @@ struct SonarOptions {
   double range_min_m = 0;                   ///< [0, range_max_m): nearer objects read this
   double range_max_m = 5;                   ///< (0, 100]: only nearer objects return an echo
   double no_echo_m = 5;                     ///< [range_max_m, 1000]: reading without an echo
-  double beam_width_rad = 20 * M_PI / 180;  ///< full angle of the cone, (0°, 120°]; 2005: 20°
+  double beam_width_rad = 20 * kRadPerDeg;  ///< full angle of the cone, (0°, 120°]; 2005: 20°
   int rays = 19;                            ///< for the model `rays`, [1, 1000]; 1: the axis only
   SonarFiring firing;
   SonarNoise noise;

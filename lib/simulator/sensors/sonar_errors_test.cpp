@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/registry.h"
 #include "sensors/sonar.h"
 #include "sensors/testing/single_robot_scene.h"
@@ -21,7 +22,7 @@ std::unique_ptr<Sensor> thin(const std::string& noise, const std::string& attrib
 
 /// A long wall whose nearest point is at `distance_m`, in the direction `angle_deg`.
 Solid wallTowards(double distance_m, double angle_deg) {
-  const double angle = angle_deg * M_PI / 180;
+  const double angle = toRadians(angle_deg);
   return block((distance_m + 0.5) * std::cos(angle), (distance_m + 0.5) * std::sin(angle), 1, 30, angle);
 }
 

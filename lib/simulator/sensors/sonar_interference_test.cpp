@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
@@ -22,7 +23,7 @@ bool receives(const mrpt::math::TPose2D& second, const std::vector<Solid>& solid
                      .laser_pan_rad = {},
                      .time = {},
                      .seed = 1};
-  return mayReceivePing(now, 0, {{0, 0, 0.1}, {1, 0, 0}}, half_deg * M_PI / 180, range_max_m);
+  return mayReceivePing(now, 0, {{0, 0, 0.1}, {1, 0, 0}}, toRadians(half_deg), range_max_m);
 }
 
 TEST(SonarInterference, ComesFromRobotsInViewOnly) {

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle_units.h"
+
 namespace robosim {
 
 SonarLobe SonarLobe::polaroid() {
-  constexpr double rad_per_deg = M_PI / 180;
   // Far: the first zero of a piston of 38 mm at 49.4 kHz, sin θ = 1.22 · 6.95 mm / 38 mm, is at 12.9°.
-  return {.on = true, .wall_rad = 42 * rad_per_deg, .far_rad = 12.9 * rad_per_deg, .range_m = 5, .edge_share = 0.5};
+  return {.on = true, .wall_rad = 42 * kRadPerDeg, .far_rad = 12.9 * kRadPerDeg, .range_m = 5, .edge_share = 0.5};
 }
 
 void SonarLobe::read(XmlReader& noise) {

@@ -1,11 +1,10 @@
 #include "sensors/sonar_noise.h"
 
+#include "base/angle_units.h"
 #include "sensors/noise_set.h"
 
 namespace robosim {
 namespace {
-
-constexpr double kRadOfDeg = M_PI / 180;
 
 enum class SonarNoiseSet { none, polaroid };
 
@@ -38,7 +37,7 @@ SonarNoise SonarNoise::read(XmlReader& sonar, double range_max_m) {
   auto element = sonar.child("noise");
   if (!element) return noise;
   noise.range = RangeNoise::read(*element, noise.range.on ? noise.range : kSonarDataSheet);
-  noise.specular_rad = element->angle("specular_deg", {0, 180}, kSpecular_deg * kRadOfDeg);
+  noise.specular_rad = element->angle("specular_deg", {0, 180}, kSpecular_deg * kRadPerDeg);
   // A given angle of incidence replaces the lobe of the set, unless the lobe is given as well.
   if (element->has("specular_deg")) noise.lobe.on = false;
   noise.lobe.read(*element);

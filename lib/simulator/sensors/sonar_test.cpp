@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
@@ -41,7 +42,7 @@ TEST(Sonar, ReportsThePointInTheFrameOfARotatedRobot) {
 
 TEST(Sonar, SectorModelDetectsAPillarOffTheAxis) {
   // The pillar's nearest point lies 8° off the axis: inside a sector of ±10°, far from the axis.
-  const double off = 8 * M_PI / 180;
+  const double off = toRadians(8);
   const std::vector<Solid> solids{pillar(0.2 + 3 * std::cos(off), 3 * std::sin(off), 0.1)};
   EXPECT_NEAR(SingleRobotScene(solids).ranges(*sonarAhead())[0], 2.9, kFloat);
   EXPECT_NEAR(SingleRobotScene(solids).ranges(*sonarAhead("model='rays' rays='1'"))[0], 5, kFloat);
@@ -154,7 +155,7 @@ TEST(Sonar, SpecularWallReturnsNoEchoBeyondItsAngle) {
 
 TEST(Sonar, NoisyBeamOfAPioneerDetectsAWallUpTo42DegreesFromItsAxis) {
   for (const auto& [axis_from_normal_deg, is_detected] : {std::pair{41.5, true}, {42.5, false}}) {
-    const double turned_rad = axis_from_normal_deg * M_PI / 180;
+    const double turned_rad = toRadians(axis_from_normal_deg);
     // The wall meets the axis 1 m ahead of the sonar.
     SingleRobotScene robot({block(1.2 + std::cos(turned_rad), std::sin(turned_rad), 2, 20, turned_rad)});
     const double range_m = robot.ranges(*sonarAhead("beam_width_deg='26'", "<noise std_per_m='0'/>"))[0];

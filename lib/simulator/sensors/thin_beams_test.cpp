@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "sensors/infrared.h"
 #include "sensors/laser.h"
 #include "sensors/testing/single_robot_scene.h"
@@ -17,7 +18,7 @@ TEST(Laser, ScansASquareRoomFromRightToLeft) {
   const auto ranges = robot.ranges(*sensorFrom("<laser/>"));
   ASSERT_EQ(ranges.size(), 181u);
   for (int i = 0; i <= 180; ++i) {
-    const double angle = (i - 90) * M_PI / 180;
+    const double angle = toRadians(i - 90);
     const double wall = 2 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
     EXPECT_NEAR(ranges[static_cast<std::size_t>(i)], wall, kRayTolerance_m) << i;
   }

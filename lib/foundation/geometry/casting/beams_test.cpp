@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "base/testing/vector_widths.h"
 #include "geometry/testing/random_scene.h"
 #include "geometry/testing/slow_scene.h"
@@ -251,11 +252,10 @@ std::int64_t nearestBody(const std::vector<Solid>& stationary, const std::vector
 
 TEST(SectorBeams, DetectsASolidBehindAllAxesButWithinASector) {
   // The axes are at ±80°, and the sectors reach to ±95°; the pillar is at 93°, 0.8 m behind the apex.
-  const auto rad = [](double deg) { return deg * M_PI / 180; };
-  const Solid pillar{Circle{{15 * std::cos(rad(93)), 15 * std::sin(rad(93))}, 0.1}, {0, 1}};
+  const Solid pillar{Circle{{15 * std::cos(toRadians(93)), 15 * std::sin(toRadians(93))}, 0.1}, {0, 1}};
   const Scene scene({pillar}, 0, {-20, 20, -20, 20});
-  const std::vector<Sector> sectors{Sector::towards({0, 0, 0.5}, rad(80), rad(15)),
-                                    Sector::towards({0, 0, 0.5}, rad(-80), rad(15))};
+  const std::vector<Sector> sectors{Sector::towards({0, 0, 0.5}, toRadians(80), toRadians(15)),
+                                    Sector::towards({0, 0, 0.5}, toRadians(-80), toRadians(15))};
   const BeamFan fan(sectors);
   BeamBatch batch;
   batch.place(fan, {}, 20);

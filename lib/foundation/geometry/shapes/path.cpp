@@ -6,6 +6,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "geometry/shapes/planar_vector.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kTurnPerChord_rad = 3 * M_PI / 180;
+constexpr double kTurnPerChord_rad = 3 * kRadPerDeg;
 /// A slide along a wall may appear as an approach of up to this much [m] per step because of rounding; it is not
 /// treated as one. A million such steps would use up the contact gap. Positions are relative to the disc's start, so
 /// the bound holds anywhere in the world.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "geometry/shapes/path.h"
 
 namespace robosim {
@@ -32,7 +33,7 @@ struct WallAndDisc {
 
 TEST_P(PathFarFromTheOrigin, SlidesAlongAnObliqueWallWithoutAStall) {
   for (int degrees = 0; degrees < 360; degrees += 7) {
-    WallAndDisc scene(GetParam(), degrees * M_PI / 180);
+    WallAndDisc scene(GetParam(), toRadians(degrees));
     for (int step = 0; step < 100; ++step) {
       const Path path{scene.pose, step % 2 == 0 ? kStep_m : -kStep_m, 0};
       ASSERT_EQ(firstContact(path, kRadius_m, scene.wall), 1) << degrees << " degrees, step " << step;
@@ -44,7 +45,7 @@ TEST_P(PathFarFromTheOrigin, SlidesAlongAnObliqueWallWithoutAStall) {
 
 TEST_P(PathFarFromTheOrigin, SlidesPastARoundPillarWithoutAStall) {
   for (int degrees = 0; degrees < 360; degrees += 7) {
-    const double direction_rad = degrees * M_PI / 180;
+    const double direction_rad = toRadians(degrees);
     const TPoint2D out(-std::sin(direction_rad), std::cos(direction_rad));
     const double reach_m = 1 + kRadius_m + kContactGap_m;
     const Circle pillar{{GetParam(), GetParam() / 3}, 1};
@@ -56,7 +57,7 @@ TEST_P(PathFarFromTheOrigin, SlidesPastARoundPillarWithoutAStall) {
 
 TEST_P(PathFarFromTheOrigin, StopsATouchingDiscThatTurnsTowardsTheWall) {
   for (int degrees = 0; degrees < 360; degrees += 7) {
-    WallAndDisc scene(GetParam(), degrees * M_PI / 180);
+    WallAndDisc scene(GetParam(), toRadians(degrees));
     scene.pose.phi -= 0.01;  // approaches by 0.5 mm a step
     for (int step = 0; step < 100; ++step) {
       Path path{scene.pose, kStep_m, 0};
@@ -81,7 +82,7 @@ TEST_P(PathFarFromTheOrigin, SlidesAlongTheEdgeOfTheAreaWithoutAStall) {
 
 TEST_P(PathFarFromTheOrigin, LetsTwoTouchingDiscsDriveSideBySide) {
   for (int degrees = 0; degrees < 360; degrees += 7) {
-    const double direction_rad = degrees * M_PI / 180;
+    const double direction_rad = toRadians(degrees);
     const double apart_m = 2 * kRadius_m + kContactGap_m;
     mrpt::math::TPose2D a{GetParam(), GetParam() / 3, direction_rad};
     mrpt::math::TPose2D b{a.x - std::sin(direction_rad) * apart_m, a.y + std::cos(direction_rad) * apart_m,
@@ -106,11 +107,11 @@ TEST(PathTouchingABox, IsFreeToLeaveAndToSlideFromExactlyAtTheContact) {
   const double contact = 1 + kRadius_m + kContactGap_m;
   for (const double x : {std::nextafter(contact, 0.), contact, std::nextafter(contact, 9.)}) {
     for (int degrees = -90; degrees <= 90; degrees += 5) {
-      const Path path{{x, 0.2, degrees * M_PI / 180}, 0.05, 0};
+      const Path path{{x, 0.2, toRadians(degrees)}, 0.05, 0};
       EXPECT_EQ(firstContact(path, kRadius_m, wall), 1) << "leaving at " << degrees << " degrees from " << x;
     }
     for (int degrees = 95; degrees <= 265; degrees += 5) {
-      const Path path{{x, 0.2, degrees * M_PI / 180}, 0.05, 0};
+      const Path path{{x, 0.2, toRadians(degrees)}, 0.05, 0};
       EXPECT_NEAR(firstContact(path, kRadius_m, wall), 0, 1e-12) << "approaching at " << degrees << " degrees";
     }
   }

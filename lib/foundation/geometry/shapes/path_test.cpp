@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "geometry/testing/random_scene.h"
 #include "geometry/testing/slow_geometry.h"
 
@@ -12,8 +13,6 @@ namespace {
 
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
-
-constexpr double kDeg = M_PI / 180;
 
 /// Distance of the disc's boundary to the outline at a fraction of the step; < 0 when they overlap.
 double clearance(const Path& path, double fraction, double radius_m, const Outline& outline) {
@@ -65,7 +64,7 @@ TEST(Path, FollowsTheArcInChordsOfAtMostThreeDegrees) {
   for (double turn : {0.001, -0.05, 0.06, M_PI, -6.0, 20.0}) {
     const Path path{{1, 2, 3}, 0.7, turn};
     const int n = path.chords();
-    EXPECT_LE(std::abs(turn) / n, 3 * kDeg + 1e-12) << turn;
+    EXPECT_LE(std::abs(turn) / n, 3 * kRadPerDeg + 1e-12) << turn;
     for (int k = 0; k < n; ++k) {
       const RealPoint a = onArc(path, Real(k) / n), b = onArc(path, Real(k + 1) / n);
       ASSERT_LT(norm(real(path.centerAt(double(k) / n)) - a), 1e-13) << turn << ", end " << k;
@@ -96,7 +95,7 @@ TEST(FirstContact, StopsAMicrometreBeforeTheWall) {
   const Outline wall = OrientedBox{{3.5, 0}, {1, 0}, 0.5, 50};
   EXPECT_NEAR(firstContact({{0, 0, 0}, 4, 0}, 1, wall) * 4, 2 - kContactGap_m, 1e-12);
   EXPECT_NEAR(firstContact({{0, 0, M_PI}, -4, 0}, 1, wall) * 4, 2 - kContactGap_m, 1e-12) << "backwards";
-  EXPECT_NEAR(firstContact({{0, 0, 60 * kDeg}, 8, 0}, 1, wall) * 8 * 0.5, 2 - kContactGap_m, 1e-12) << "aslant";
+  EXPECT_NEAR(firstContact({{0, 0, 60 * kRadPerDeg}, 8, 0}, 1, wall) * 8 * 0.5, 2 - kContactGap_m, 1e-12) << "aslant";
   EXPECT_EQ(firstContact({{0, 0, 0}, 1.9, 0}, 1, wall), 1) << "too short to reach it";
   EXPECT_EQ(firstContact({{0, 0, M_PI}, 4, 0}, 1, wall), 1) << "away from it";
   EXPECT_EQ(firstContact({{0, 0, M_PI / 2}, 40, 0}, 1, wall), 1) << "along it";
@@ -202,7 +201,7 @@ TEST(FirstContact, LetsATouchingDiscLeaveButNotComeNearer) {
     const Outline outline = randomOutline(rng, {.area = {-4, 4, -4, 4}});
     const double radius = rng.uniform(0.05, 1), length = rng.uniform(0.001, 2);
     const Touching at = touching(rng, outline, radius, rng.uniform(0, 1) * kContactGap_m);
-    const double out = std::atan2(at.out.y, at.out.x), aside = rng.uniform(-89, 89) * kDeg;
+    const double out = std::atan2(at.out.y, at.out.x), aside = rng.uniform(-89, 89) * kRadPerDeg;
     ASSERT_EQ(firstContact({{at.center.x, at.center.y, out + aside}, length, 0}, radius, outline), 1) << "case " << i;
     ASSERT_EQ(firstContact({{at.center.x, at.center.y, out + aside}, -length, 0}, radius, outline), 0) << "case " << i;
     ASSERT_EQ(firstContact({{at.center.x, at.center.y, out + aside}, 0, 1}, radius, outline), 1) << "on the spot";

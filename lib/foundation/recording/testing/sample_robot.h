@@ -9,6 +9,7 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
 
+#include "base/angle_units.h"
 #include "base/random.h"
 #include "hardware/measurement_fields.h"
 #include "hardware/readings.h"
@@ -37,7 +38,7 @@ inline SensorInfo plainSensor(SensorKind kind, const std::string& label, std::ve
 /// 181 beams over 180°, 0.2 m ahead of the robot's centre.
 inline SensorInfo sampleScanner(double range_max_m = 8) {
   std::vector<Beam> beams;
-  for (int i = 0; i <= 180; ++i) beams.push_back(beamAt(0.2, 0, 0.3, (i - 90) * M_PI / 180));
+  for (int i = 0; i <= 180; ++i) beams.push_back(beamAt(0.2, 0, 0.3, toRadians(i - 90)));
   return rangeSensor(SensorKind::laser, "laser", beams, range_max_m, range_max_m);
 }
 
@@ -49,7 +50,7 @@ inline RobotInfo sampleRobot(const std::string& name) {
   for (int i = 0; i < 10; ++i) bumper.push_back(beamAt(0.2, 0, 0.1, i * M_PI / 5));
   auto sonar = rangeSensor(SensorKind::sonar, "sonar", ring, 5, 5);
   sonar.range_min_m = 0.1;
-  sonar.beam_width_rad = 20 * M_PI / 180;
+  sonar.beam_width_rad = toRadians(20);
   auto beam = rangeSensor(SensorKind::laser, "beam", {beamAt(0.3, 0, 0.15, 0)}, 2, 2.1);
   beam.pans = true;
   const auto infrared = rangeSensor(SensorKind::infrared, "infrared",

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/activmedia_text.h"
+#include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
 #include "base/printable_text.h"
@@ -101,7 +102,7 @@ class ActivmediaReader {
       if (!value) fail("'" + quotable(words[i]) + "' of the cairn " + quotable(type) + " is not a number");
       return text_.checked(*value, number_);
     };
-    const TPose2D pose{number(2) / 1000, number(3) / 1000, number(4) * M_PI / 180};
+    const TPose2D pose{number(2) / 1000, number(3) / 1000, toRadians(number(4))};
     if (words.size() < 12) {
       if (is_home) homes_.push_back(pose);
       if (is_dock) docks_.push_back(pose);

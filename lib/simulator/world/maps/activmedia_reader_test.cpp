@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle_units.h"
 #include "base/error_list.h"
 #include "geometry/scene.h"
 #include "world/maps/testing/map_samples.h"
@@ -72,7 +73,7 @@ TEST(ActivmediaMap, ReportsStartPosesBestFirst) {
       "Cairn: RobotHome 3000 4000 -45.5 \"\" ICON \"\"\n"
       "Cairn: Goal 1 2 0 \"\" ICON \"no start\"\n");
   ASSERT_EQ(plan.starts.size(), 3u);
-  EXPECT_EQ(plan.starts[0], TPose2D(3, 4, -45.5 * M_PI / 180));
+  EXPECT_EQ(plan.starts[0], TPose2D(3, 4, toRadians(-45.5)));
   // The area's middle, (1, 0.5), is given in a frame rotated by 90° about the map's origin.
   EXPECT_NEAR(plan.starts[1].x, -0.5, 1e-12);
   EXPECT_NEAR(plan.starts[1].y, 1, 1e-12);
