@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <sstream>
@@ -17,7 +18,6 @@
 #include "net/private_file.h"
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
-#include "robosim/reload_signal.h"
 
 namespace robosim {
 namespace {
@@ -39,6 +39,23 @@ void refuseInsecure(CLI::App& command) {
         "and --listen-unprotected, to listen to other machines without TLS and tokens");
   };
   command.add_flag_function("--insecure", refuse)->group("");
+}
+
+volatile std::sig_atomic_t reload_requested = 0;
+
+/// Installs a handler for SIGHUP, which requests a reload of the token file instead of ending the program.
+void catchReloadSignal() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { reload_requested = 1; };
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGHUP, &action, nullptr);
+}
+
+/// Whether SIGHUP has been received since the last call.
+bool isReloadRequested() {
+  if (reload_requested == 0) return false;
+  reload_requested = 0;
+  return true;
 }
 
 }  // namespace

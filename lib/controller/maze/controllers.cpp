@@ -1,5 +1,6 @@
 #include "maze/controllers.h"
 
+#include "control/controller.h"
 #include "maze/coordinated_frontiers.h"
 #include "maze/gold_finder.h"
 #include "maze/gold_search.h"
@@ -8,12 +9,18 @@
 #include "maze/oracle.h"
 #include "maze/random_walk.h"
 #include "maze/stigmergy.h"
-#include "maze/still.h"
 #include "maze/wall_follower.h"
 #include "maze/wander.h"
 
 namespace robosim {
 namespace {
+
+/// Controller without commands, for robots that are obstacles or are driven otherwise.
+class Still : public Controller {
+ public:
+  void step(Robot&) override {}
+  std::unique_ptr<Controller> clone() const override { return std::make_unique<Still>(*this); }
+};
 
 using Made = std::unique_ptr<Controller>;
 using Setup = ControllerSetup;

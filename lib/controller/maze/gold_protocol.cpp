@@ -3,6 +3,18 @@
 #include <algorithm>
 
 namespace robosim {
+namespace {
+
+const std::string kPrefix = "GOLD ";
+
+}  // namespace
+
+std::string GoldMessage::text() const { return kPrefix + source; }
+
+std::optional<GoldMessage> GoldMessage::parse(const std::string& text) {
+  if (!text.starts_with(kPrefix) || text.size() == kPrefix.size()) return std::nullopt;
+  return GoldMessage{text.substr(kPrefix.size())};
+}
 
 void GoldProtocol::step(Robot& robot) {
   if (robot.activity() == Activity::active && robot.heat().value_or(0) > heat_threshold_) {

@@ -1,15 +1,25 @@
 #pragma once
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "control/robot.h"
-#include "maze/gold_message.h"
 
 namespace robosim {
 
 /// Default heat above which a robot has found gold [°C].
 constexpr double kGoldHeat_celsius = 10;
+
+/// Message between gold finders (2005): the gold has been found, and by which robot. As text: "GOLD <source>".
+struct GoldMessage {
+  std::string source;  ///< the finder's name
+
+  std::string text() const;
+  /// nullopt for any other text.
+  static std::optional<GoldMessage> parse(const std::string& text);
+  bool operator==(const GoldMessage&) const = default;
+};
 
 /// The protocol by which a team of 2005 ends its search. In each step:
 ///  - if the heat exceeds the threshold, the robot halts as `found` and sends GOLD, with itself as source, to its

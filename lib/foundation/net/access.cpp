@@ -1,11 +1,14 @@
 #include "net/access.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <mutex>
 #include <utility>
 
+#include <sys/stat.h>
+
 #include "base/error_list.h"
-#include "net/file_signature.h"
 #include "net/guess_limiter.h"
 #include "net/peer_address.h"
 #include "net/private_file.h"
@@ -44,6 +47,18 @@ std::string purposeOf(const TokenHolder& holder, Right right) {
 
 bool isExpired(const TokenHolder& holder, Time now) { return holder.expires && now >= *holder.expires; }
 
+/// Attributes of a file that change when it is written or replaced, or when its permissions change: device, inode,
+/// size, modification time and status change time [ns]. All zeros for a file that does not exist.
+using FileSignature = std::array<std::int64_t, 5>;
+
+FileSignature readSignature(const std::filesystem::path& file) {
+  struct stat about {};
+  if (stat(file.c_str(), &about) != 0) return {};
+  const auto ns = [](const timespec& time) { return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec; };
+  return {static_cast<std::int64_t>(about.st_dev), static_cast<std::int64_t>(about.st_ino), about.st_size,
+          ns(about.st_mtim), ns(about.st_ctim)};
+}
+
 }  // namespace
 
 struct Access::State {
@@ -67,14 +82,14 @@ struct Access::State {
   const std::filesystem::path file;  ///< empty: not from a file
   TokenTable table;
   GuessLimiter guesses;
-  FileSignature read, changed;  ///< of the file when last read or refused; at the last check
+  FileSignature read{}, changed{};  ///< of the file when last read or refused; at the last check
   Time polled;
   Time expiries_until;  ///< expiries up to this time have been reported
   std::uint64_t version = 0;
 };
 
 Access Access::read(const std::filesystem::path& file, const Options& options) {
-  const FileSignature signature = FileSignature::of(file);
+  const FileSignature signature = readSignature(file);
   Access access;
   access.state_ = std::make_shared<State>(TokenTable::parse(readPrivateFile(file, "the file of tokens"), file.string()),
                                           file, options);
@@ -180,13 +195,13 @@ void Access::State::poll(Time now) {
   logExpired(expiries_until, now);
   expiries_until = now;
   if (file.empty()) return;
-  const FileSignature found = FileSignature::of(file);
+  const FileSignature found = readSignature(file);
   // A file that changed since the last check may be incomplete: it is read after a period without changes.
   if (found == std::exchange(changed, found) && found != read) reload();
 }
 
 void Access::State::reload() {
-  read = changed = FileSignature::of(file);
+  read = changed = readSignature(file);
   try {
     table = TokenTable::parse(readPrivateFile(file, "the file of tokens"), file.string());
     ++version;

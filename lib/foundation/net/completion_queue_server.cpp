@@ -1,13 +1,15 @@
 #include "net/completion_queue_server.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include <dlfcn.h>
+
 #include "base/log.h"
 #include "net/flood_guard.h"
-#include "net/reflection.h"
 
 namespace robosim {
 namespace {
@@ -23,6 +25,15 @@ constexpr std::chrono::seconds kShutdownGracePeriod(1);
 gpr_timespec timespecOf(CompletionQueueServer::Clock::time_point until) {
   const std::chrono::nanoseconds wait = until - CompletionQueueServer::Clock::now();
   return gpr_time_add(gpr_now(GPR_CLOCK_MONOTONIC), gpr_time_from_nanos(wait.count(), GPR_TIMESPAN));
+}
+
+/// Loads gRPC's library for reflection, which this program is not linked to: it adds the service to all servers whose
+/// grpc::ServerBuilder is created from then on.
+/// @throws std::runtime_error with how to fix it when the library is not installed.
+void enableReflection() {
+  if (dlopen(ROBOSIM_GRPC_REFLECTION, RTLD_NOW)) return;
+  throw std::runtime_error("cannot load " ROBOSIM_GRPC_REFLECTION ", which --reflection requires (" +
+                           std::string(dlerror()) + "); install it, or serve without --reflection");
 }
 
 }  // namespace

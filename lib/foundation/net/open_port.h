@@ -39,7 +39,7 @@ struct PortOptions {
 /// Starts a gRPC server at an address, "host:port"; port 0 lets the system choose.
 /// @param services served at the address; must outlive the server
 /// @param builder with the server's completion queue, if it uses one
-/// For reflection, call enableReflection() (net/reflection.h) before creating the builder.
+/// For reflection, its library must be loaded before the builder is created, as CompletionQueueServer does.
 /// @throws std::runtime_error with the address and how to fix it when the port is in use.
 OpenPort openPort(const std::string& address, const PortOptions& options, const std::vector<grpc::Service*>& services,
                   grpc::ServerBuilder&& builder = {});

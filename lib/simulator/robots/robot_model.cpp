@@ -2,18 +2,100 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
 
+#include "arcos/protocol/parameters.h"
 #include "base/angle_units.h"
 #include "base/digest.h"
+#include "base/label.h"
 #include "base/xml_reader.h"
-#include "robots/arcos_parameters_reader.h"
 #include "robots/robot_type_includes.h"
-#include "robots/sensor_names.h"
 #include "sensors/odometry.h"
 #include "sensors/registry.h"
 
 namespace robosim {
 namespace {
+
+int wholeNumber(XmlReader& reader, const std::string& setting, const Bounds& bounds, int default_value) {
+  const double value = reader.number(setting, bounds, default_value);
+  if (value != std::floor(value)) reader.errorAt(setting, "must be a whole number");
+  return static_cast<int>(value);
+}
+
+/// Reads `<arcos>` of a robot type, which lets ARCOS programs drive robots of the type.
+arcos::Parameters readArcosParameters(XmlReader& reader) {
+  arcos::Parameters p;
+  // Largest value of a field of 16 bits.
+  const Bounds in_packet = Bounds::positive(65535);
+  p.subclass = reader.word("subclass");
+  p.distance_unit_mm = reader.number("distance_unit_mm", Bounds::positive(100), p.distance_unit_mm);
+  p.turn_radpmm = reader.number("turn_radpmm", Bounds::positive(1), p.turn_radpmm);
+  p.wheel_speed_unit_mmps = reader.number("wheel_speed_unit_mmps", Bounds::positive(1000), p.wheel_speed_unit_mmps);
+  p.speed_mmps = reader.number("speed_mmps", in_packet, p.speed_mmps);
+  p.turn_degps = reader.number("turn_degps", in_packet, p.turn_degps);
+  p.accel_mmps2 = reader.number("accel_mmps2", in_packet, p.accel_mmps2);
+  p.turn_accel_degps2 = reader.number("turn_accel_degps2", in_packet, p.turn_accel_degps2);
+  p.front_bumpers = wholeNumber(reader, "front_bumpers", {0, 7}, p.front_bumpers);
+  p.rear_bumpers = wholeNumber(reader, "rear_bumpers", {0, 7}, p.rear_bumpers);
+  p.has_front_sonar = reader.flag("has_front_sonar", p.has_front_sonar);
+  p.has_rear_sonar = reader.flag("has_rear_sonar", p.has_rear_sonar);
+  p.encoder_ticks_per_mm = reader.number("encoder_ticks_per_mm", in_packet, p.encoder_ticks_per_mm);
+  p.battery_volts = reader.number("battery_volts", Bounds::positive(100), p.battery_volts);
+  p.low_battery_volts = reader.number("low_battery_volts", Bounds::notNegative(100), p.low_battery_volts);
+  reader.finish();
+  return p;
+}
+
+/// Reports a setting whose value an earlier sensor of the robot already has.
+template <typename Value>
+void checkUnique(XmlReader& sensor, const std::string& setting, const Value& value, std::map<Value, int>& line_of) {
+  const auto [first, is_new] = line_of.emplace(value, sensor.line().number);
+  if (is_new) return;
+  sensor.errorAt(setting, "is taken already, by the sensor in line " + std::to_string(first->second) +
+                              "; give each sensor of a robot " + (setting == "id" ? "an id" : "a label") +
+                              " of its own");
+}
+
+/// Checks the `id`s and `label`s of one robot's sensors. Reports duplicate ids and labels, and labels that recordings
+/// cannot hold (sensorLabelError()).
+void checkSensorNames(std::vector<XmlReader>& sensors) {
+  std::map<double, int> line_of_id;
+  std::map<std::string, int> line_of_label;
+  for (auto& sensor : sensors) {
+    // Only the 2005 <sensor> has an id, and it has no label.
+    if (sensor.name() == "sensor") {
+      const auto id = sensor.has("id") ? parseNumber(sensor.word("id", "")) : std::nullopt;
+      if (id) checkUnique(sensor, "id", *id, line_of_id);
+    } else if (sensor.has("label")) {
+      const std::string label = sensor.word("label", "");
+      checkUnique(sensor, "label", label, line_of_label);
+      if (const std::string fault = sensorLabelError(label); !fault.empty()) sensor.errorAt("label", fault);
+    }
+  }
+}
+
+/// Makes labels unique. Keeps the labels given in the file; appends _2, _3, … to other sensors' labels, the names of
+/// their kinds, where they are taken.
+void makeLabelsUnique(std::vector<SensorInfo>& sensors, const std::vector<bool>& labelled) {
+  std::unordered_set<std::string> taken;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (labelled[i]) taken.insert(sensors[i].label);
+  }
+  std::unordered_map<std::string, int> next;  // next suffix to try for a label
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (labelled[i]) continue;
+    const std::string label = sensors[i].label;
+    int& number = next.try_emplace(label, 1).first->second;
+    do {
+      sensors[i].label = number == 1 ? label : label + "_" + std::to_string(number);
+      ++number;
+    } while (!taken.insert(sensors[i].label).second);
+  }
+}
 
 Body readBody(XmlReader& reader, BodyLook& look) {
   Body body;

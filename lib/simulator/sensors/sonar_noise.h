@@ -4,9 +4,35 @@
 
 #include "base/xml_reader.h"
 #include "sensors/range_noise.h"
-#include "sensors/sonar_lobe.h"
 
 namespace robosim {
+
+/// What a ping meets at the point of a body that is nearest to the sonar.
+enum class SonarTarget {
+  face,  ///< of a wall or box: a mirror
+  edge,  ///< a corner of a box that points at the sonar, or a pillar: it diffracts or spreads the ping
+};
+
+/// Angles from the axis within which a sonar detects a target. Smooth walls act as mirrors: they are detected at their
+/// nearest point, by the lobe of the transducer in that direction. A near wall is detected by the side lobes as well,
+/// up to 42° from the axis (Cao & Borenstein, "Experimental characterization of Polaroid ultrasonic sensors in single
+/// and phased array configuration", Proc. SPIE 4715, 2002); a far one by the main lobe only. The decrease with the
+/// range is assumed to be linear. Edges and pillars return less (Kuc & Siegel, "Physically based simulation model for
+/// acoustic sensor robot navigation", IEEE Trans. PAMI 9(6), 1987); their share is an assumption. Omitted: the strength
+/// of the echo, which delays its detection, and materials.
+struct SonarLobe {
+  bool on = false;
+  double wall_rad = 0;    ///< of a wall at the sonar, [0, π/2]
+  double far_rad = 0;     ///< of a wall at `range_m` and beyond, [0, π/2]
+  double range_m = 5;     ///< (0, 100]
+  double edge_share = 1;  ///< of the angle of a wall, for edges, [0, 1]
+
+  static SonarLobe polaroid();
+  /// Reads the attributes of a <noise> element over the present values. `wall_deg` switches the lobe on.
+  void read(XmlReader& noise);
+  /// The largest angle from the axis at which a target at this range is detected [rad].
+  double angleAt(double target_m, SonarTarget target) const;
+};
 
 /// Errors of a sonar. The set `polaroid` describes the Polaroid 6500 module with the 600 series transducer;
 /// doc/fidelity.md lists the source of each value.

@@ -1,6 +1,8 @@
 #include "server/environment_server.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <optional>
 #include <random>
 
@@ -14,7 +16,6 @@
 #include "server/geometry_session.h"
 #include "server/robot_session.h"
 #include "server/run_status.h"
-#include "server/step_rate.h"
 #include "server/viewer_session.h"
 
 namespace robosim {
@@ -37,6 +38,30 @@ std::uint64_t randomSecret() {
 }  // namespace
 
 struct EnvironmentServer::Impl {
+  /// Measures the step rate over windows of at least one second.
+  class StepRate {
+   public:
+    void note(Clock::time_point now) {
+      ++steps_;
+      const double passed_s = toSeconds(now - since_);
+      if (passed_s < 1) return;
+      rate_ = static_cast<double>(steps_) / passed_s;
+      steps_ = 0;
+      since_ = now;
+    }
+    /// Restarts the window, so that paused time does not count.
+    void rest(Clock::time_point now) {
+      steps_ = 0;
+      since_ = now;
+    }
+    double stepsPerSecond() const { return rate_; }
+
+   private:
+    Clock::time_point since_ = Clock::now();
+    std::uint64_t steps_ = 0;
+    double rate_ = 0;
+  };
+
   ServingState serving;
   RunOperations operations;
   RunControl& run_control = operations.run_control;

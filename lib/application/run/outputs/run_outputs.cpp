@@ -2,13 +2,45 @@
 
 #include <exception>
 #include <iostream>
+#include <span>
+#include <vector>
+
+#include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
 
 #include "base/printable_text.h"
+#include "hardware/command.h"
 #include "rendering/plan.h"
 #include "run/json_text.h"
 #include "run/output_files.h"
 
 namespace robosim {
+
+/// Sampled path of every robot of a run: a point every few centimetres.
+class RunOutputs::Tracks {
+ public:
+  explicit Tracks(std::size_t robots) : points_(robots) {}
+
+  /// The path of an absent robot begins again when it comes back.
+  void add(std::span<const mrpt::math::TPose2D> world_from_robot, std::span<const Activity> activity) {
+    constexpr double kSpacing_m = 0.05;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (activity[i] == Activity::absent) {
+        points_[i].clear();
+        continue;
+      }
+      const mrpt::math::TPoint2D now(world_from_robot[i].x, world_from_robot[i].y);
+      if (points_[i].empty() || (now - points_[i].back()).norm() >= kSpacing_m) points_[i].push_back(now);
+    }
+  }
+
+  /// By robot, in order of time.
+  const std::vector<std::vector<mrpt::math::TPoint2D>>& points() const { return points_; }
+
+ private:
+  std::vector<std::vector<mrpt::math::TPoint2D>> points_;
+};
+
 namespace {
 
 /// nullopt for absent robots.
@@ -21,10 +53,10 @@ std::vector<std::optional<mrpt::math::TPose2D>> presentPoses(const State& state)
 }
 
 /// Thrown when the picture cannot be written at the end; not bad input, because the path was checked at the start.
-void draw(const std::string& picture, const Environment& environment, const Tracks& tracks) {
+void draw(const std::string& picture, const Environment& environment,
+          const std::vector<std::vector<mrpt::math::TPoint2D>>& tracks) {
   try {
-    writePlan(picture, environment.presentWorld(), environment.fleet(), tracks.points(),
-              presentPoses(environment.state()));
+    writePlan(picture, environment.presentWorld(), environment.fleet(), tracks, presentPoses(environment.state()));
   } catch (const ConfigError& error) {
     throw std::runtime_error(error.what());
   }
@@ -63,6 +95,8 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
   checkPlanFile(arguments.picture);
   tracks_ = std::make_unique<Tracks>(environment.robotCount());
 }
+
+RunOutputs::~RunOutputs() = default;
 
 void RunOutputs::observe(const Environment& environment) {
   const State& state = environment.state();
@@ -105,7 +139,7 @@ void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, st
   bool is_drawn = false;
   try {
     if (recording_) recording_->finish(run.environment().state(), summary);
-    if (tracks_) draw(arguments_.picture, run.environment(), *tracks_);
+    if (tracks_) draw(arguments_.picture, run.environment(), tracks_->points());
     is_drawn = tracks_ != nullptr;
   } catch (const std::exception&) {
     failure = std::current_exception();

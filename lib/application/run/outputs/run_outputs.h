@@ -8,7 +8,6 @@
 #include "run/local_run.h"
 #include "run/outputs/run_note.h"
 #include "run/outputs/run_recording.h"
-#include "run/outputs/tracks.h"
 #include "run/run_summary.h"
 
 namespace robosim {
@@ -39,6 +38,7 @@ class RunOutputs {
  public:
   /// Opens the recording. @param note first entry of the recording @throws ConfigError
   RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note);
+  ~RunOutputs();
 
   /// Records the current step. @throws RecordingError as RunRecording::write()
   void observe(const Environment& environment);
@@ -58,12 +58,14 @@ class RunOutputs {
               const std::optional<RunReport>& report = {});
 
  private:
+  class Tracks;
+
   RunSummary summaryOf(const LocalRun& run, EndedBy ended_by) const;
 
   const RunArguments& arguments_;
   std::vector<Command> commands_;  ///< of the current step
   std::unique_ptr<RunRecording> recording_;
-  std::unique_ptr<Tracks> tracks_;
+  std::unique_ptr<Tracks> tracks_;  ///< null without a picture
 };
 
 }  // namespace robosim

@@ -1,4 +1,4 @@
-#include "maze/gold_message.h"
+#include "maze/gold_protocol.h"
 
 #include <gtest/gtest.h>
 
