@@ -12,6 +12,7 @@
 #include "net/guess_limiter.h"
 #include "net/peer_address.h"
 #include "net/private_file.h"
+#include "net/roles.h"
 #include "net/wire_error.h"
 
 namespace robosim {
@@ -24,26 +25,6 @@ using Time = Access::Clock::time_point;
 constexpr auto kPollPeriod = 1s;
 
 grpc::Status invalidToken(const std::string& what) { return errorStatus(v1::ERROR_REASON_TOKEN_INVALID, what); }
-
-/// Description of a token's role for the text of a refusal.
-/// @param right that is refused
-std::string purposeOf(const TokenHolder& holder, Right right) {
-  switch (holder.role) {
-    case Role::viewer:
-      return "has the role viewer, which permits only to watch; use another";
-    case Role::robot:
-      return "has the role robot, which permits only to drive " + listed(holder.robots) + "; use another";
-    case Role::geometry:
-      return "has the role geometry, which permits only 'robosim geometry'; use another";
-    case Role::supervisor:
-      return "has the role supervisor, which permits only to watch and to change the run; use another";
-    case Role::operate:
-      break;
-  }
-  return right == Right::work
-             ? "has the role operator, which does not permit geometry workers; use one of the role geometry"
-             : "has the role operator, which does not permit to change the run; use one of the role supervisor";
-}
 
 bool isExpired(const TokenHolder& holder, Time now) { return holder.expires && now >= *holder.expires; }
 
@@ -163,7 +144,8 @@ grpc::Status Access::check(const Identity& client, Right right, std::span<const 
                         " has expired; request another from the operator of the environment");
   }
   if (!permits(holder->role, right)) {
-    return errorStatus(v1::ERROR_REASON_PERMISSION_DENIED, "the token " + purposeOf(*holder, right));
+    return errorStatus(v1::ERROR_REASON_PERMISSION_DENIED,
+                       "the token " + refusalText(holder->role, holder->robots, right));
   }
   if (holder->role != Role::robot) return grpc::Status::OK;
   for (const auto& robot : robots) {

@@ -59,14 +59,6 @@ std::optional<std::chrono::sys_seconds> expiryOf(std::string_view text) {
   return sys_days(date) + hours(hour) + minutes(minute) + seconds(second);
 }
 
-struct RoleName {
-  const char* name;
-  Role role;
-};
-constexpr std::array kRoleNames{RoleName{"viewer", Role::viewer}, RoleName{"robot", Role::robot},
-                                RoleName{"geometry", Role::geometry}, RoleName{"operator", Role::operate},
-                                RoleName{"supervisor", Role::supervisor}};
-
 /// Reads the next word, which may be in double quotes.
 bool readWord(std::istream& words, std::string& word, bool& is_quoted) {
   words >> std::ws;
@@ -102,22 +94,6 @@ void readRest(std::istream& words, TokenHolder& holder, const std::function<void
 
 }  // namespace
 
-bool permits(Role role, Right right) {
-  switch (role) {
-    case Role::viewer:
-      return right == Right::look;
-    case Role::robot:
-      return right == Right::drive;
-    case Role::geometry:
-      return right == Right::work;
-    case Role::operate:
-      return right != Right::work && right != Right::supervise;
-    case Role::supervisor:
-      return right == Right::supervise || right == Right::look;
-  }
-  return false;
-}
-
 TokenHash hashOf(std::string_view token) {
   TokenHash hash;
   SHA256(reinterpret_cast<const unsigned char*>(token.data()), token.size(), hash.data());
@@ -146,11 +122,11 @@ TokenTable TokenTable::parse(const std::string& text, const std::string& file) {
     if (std::any_of(table.holders_.begin(), table.holders_.end(), has_name)) {
       report("the name " + holder.name + " is that of an earlier line already; give each token its own");
     }
-    const auto* found = std::find_if(kRoleNames.begin(), kRoleNames.end(), [&](auto& r) { return r.name == role; });
-    if (found == kRoleNames.end()) {
+    const auto found = findRole(role);
+    if (!found) {
       report("a role must follow the token: viewer, robot NAME…, geometry, or operator");
     } else {
-      holder.role = found->role;
+      holder.role = *found;
       const bool names_robots = !holder.robots.empty();
       if (holder.role == Role::robot && !names_robots) report("the role robot needs names: robot NAME…");
       if (holder.role != Role::robot && names_robots) report("only the role robot takes names");

@@ -6,24 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "net/roles.h"
+
 namespace robosim {
-
-/// Right to a class of actions.
-enum class Right {
-  look,       ///< watch the run, and query its status
-  drive,      ///< drive robots
-  work,       ///< compute part of each step: the results become part of the run
-  operate,    ///< start, pause, speed, load, stop
-  supervise,  ///< change the run from outside: place, add, remove (world/intervention.h)
-};
-
-/// Role of a token.
-enum class Role { viewer, robot, geometry, operate, supervisor };
-
-/// Whether tokens of a role have a right. Tokens of the role robot may drive only the robots named in their line. The
-/// role operate has every right except `work` and `supervise`: only geometry workers contribute results to a run, and
-/// only supervisors change what has happened in it. These may also watch.
-bool permits(Role role, Right right);
 
 /// SHA-256 of a token: all have the same length, and no token is kept in memory.
 using TokenHash = std::array<unsigned char, 32>;

@@ -1,11 +1,10 @@
 // Passes the page's inputs (keyboard, drive pad, buttons, gamepad) and the state of window and connection to Motion, and
 // sends the messages that it returns.
 
+import { ORDER_KEYS, STOP_KEYS } from './key_bindings.js';
 import { heldKey, Motion, MOTION_ORDERS } from './motion.js';
 
 const TICK_MS = 50;
-const STOP_KEYS = new Set(['Space', 'Escape']);
-const ORDER_KEYS = { '+': 'accelerate', '=': 'accelerate', '-': 'decelerate', c: 'check_win' };
 
 const takesText = (element) => Boolean(element.matches?.('input:not([type="range"], [type="checkbox"]), textarea'));
 const orderOf = ({ key }) => ORDER_KEYS[key.toLowerCase()];

@@ -9,6 +9,7 @@ import { Drive } from './drive.js';
 import { makeFullScreen } from './full_screen.js';
 import { Heat } from './heat.js';
 import { identity, makeDialogs, takeTokenFromAddress } from './identity.js';
+import { PAGE_KEYS } from './key_bindings.js';
 import { watchLayout } from './layout.js';
 import { Link } from './link.js';
 import { Map2D } from './map.js';
@@ -281,13 +282,8 @@ for (const [id, by] of [['zoom-in', -1], ['zoom-out', 1]]) {
     $('zoom').textContent = `${radar.scale_m} m`;
   });
 }
-drive.addEventListener('key', ({ detail: key }) => {
-  if (key === 'n') nextRobot();
-  if (key === 'r') toggleAutonomous();
-  if (key === 'm') toggleMap();
-  if (key === 'f') toggleFullScreen();
-  if (key === '?') openHelp();
-});
+const keyActions = { next_robot: nextRobot, autonomous: toggleAutonomous, map: toggleMap, full_screen: toggleFullScreen, help: openHelp };
+drive.addEventListener('key', ({ detail: key }) => keyActions[PAGE_KEYS[key]]?.());
 
 const tabs = new Tabs(draw, () => { if (document.body.dataset.layout !== 'desk') setMap(false); });
 

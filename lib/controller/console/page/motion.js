@@ -15,6 +15,7 @@
 // 5. The maximum speed applies to every input.
 
 import { GamepadInput } from './gamepad.js';
+import { MOTION_KEYS } from './key_bindings.js';
 import { STEERING } from './orders.js';
 
 export const ALIVE_MS = 100;
@@ -24,10 +25,6 @@ export const SUSPENDED_MS = 2000;  // without a tick, after which the page was s
 const CONFIRM_MS = 1000;  // after an order, within which the robot's reports may be older
 const TURN_PART = STEERING.turn_left.turn;  // of keys and buttons, as of a single order
 
-export const MOTION_KEYS = {
-  ArrowUp: { speed: 1 }, KeyW: { speed: 1 }, ArrowDown: { speed: -1 }, KeyS: { speed: -1 },
-  ArrowLeft: { turn: 1 }, KeyA: { turn: 1 }, ArrowRight: { turn: -1 }, KeyD: { turn: -1 },
-};
 export const MOTION_ORDERS = new Set(Object.keys(STEERING));
 const WHY_CLOSED = {
   focus: 'has lost the focus', visible: 'is hidden', link: 'has received nothing from the console for 2 s',
