@@ -105,7 +105,8 @@ TEST(Access, ReportsInvalidLinesWithoutQuotingTokens) {
       "2123456789abcdefghij operator\n"
       "3123456789abcdefghij\n");
   for (const char* line :
-       {"tokens:1: the token must have 16", "tokens:2: a role must follow the token",
+       {"tokens:1: the token must have 16",
+        "tokens:2: a role must follow the token: viewer, robot NAME…, geometry, operator, or supervisor",
         "tokens:3: the role robot needs names", "tokens:4: only the role robot takes names",
         "tokens:5: the token is already used in an earlier line", "tokens:6: a role must follow the token"}) {
     EXPECT_NE(wrong.find(line), std::string::npos) << line << "\n" << wrong;

@@ -124,7 +124,7 @@ TokenTable TokenTable::parse(const std::string& text, const std::string& file) {
     }
     const auto found = findRole(role);
     if (!found) {
-      report("a role must follow the token: viewer, robot NAME…, geometry, or operator");
+      report("a role must follow the token: viewer, robot NAME…, geometry, operator, or supervisor");
     } else {
       holder.role = *found;
       const bool names_robots = !holder.robots.empty();
