@@ -31,21 +31,25 @@ RemoteControl::Options controlOptions(const Console::Options& options, WebServer
 }  // namespace
 
 /// Adapter of ConsoleSession: passes it the events of the web server with the time, and performs its actions.
-struct Console::Impl final : public WebPageHandler {
+struct Console::Impl {
   Impl(const Options& the_options, const std::vector<RobotAddress>& team)
       : options(the_options),
         session(options.access),
-        server(serverOptions(options), *this),
+        server(serverOptions(options), events()),
         control(team, controlOptions(options, server)) {
     perform(update());
   }
 
-  void opened(PageId page, const std::string& peer) override { perform(session.pageOpened(page, peer, now())); }
-  void received(PageId page, std::string_view text) override { perform(session.pageMessage(page, text, now())); }
-  void receivedInvalid(PageId page, const std::string& why) override { perform(session.pageInvalid(page, why)); }
-  void closed(PageId page) override { perform(session.pageClosed(page)); }
-  WebMessagePtr next(PageId page) override { return session.nextMessage(page, now()); }
-  void tick() override {
+  WebPageEvents events() {
+    return {
+        .opened = [this](PageId page, const std::string& peer) { perform(session.pageOpened(page, peer, now())); },
+        .received = [this](PageId page, std::string_view text) { perform(session.pageMessage(page, text, now())); },
+        .received_invalid = [this](PageId page, const std::string& why) { perform(session.pageInvalid(page, why)); },
+        .closed = [this](PageId page) { perform(session.pageClosed(page)); },
+        .next = [this](PageId page) { return session.nextMessage(page, now()); },
+        .tick = [this] { tick(); }};
+  }
+  void tick() {
     limited_log.reportSuppressed();
     audit.reportSuppressed();
     control.tick();

@@ -24,14 +24,14 @@ std::string textOf(boost::beast::string_view text) { return {text.data(), text.s
 
 }  // namespace
 
-WebConnection::WebConnection(WebConnectionOwner& owner, WebStream::Socket socket, std::uint64_t number,
-                             std::string peer, asio::ssl::context* tls)
-    : owner_(owner),
+WebConnection::WebConnection(const SharedByConnections& shared, WebStream::Socket socket, std::uint64_t number,
+                             std::string peer)
+    : shared_(shared),
       number_(number),
       peer_(std::move(peer)),
       deadline_(socket.get_executor()),
       buffer_(kMaxHeaderBytes) {
-  stream_.emplace(std::move(socket), tls);
+  stream_.emplace(std::move(socket), shared.tls);
 }
 
 void WebConnection::start() {
@@ -64,10 +64,10 @@ void WebConnection::readRequest() {
 void WebConnection::takeRequest(const Error& error) {
   if (is_over_) return;
   if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-    send(refusalOf(http::status::request_header_fields_too_large, owner_.hasTls()));
+    send(refusalOf(http::status::request_header_fields_too_large, hasTls()));
   } else if (error.category() == make_error_code(http::error::bad_method).category() &&
              error != http::error::end_of_stream && error != http::error::partial_message) {
-    send(refusalOf(http::status::bad_request, owner_.hasTls()));
+    send(refusalOf(http::status::bad_request, hasTls()));
   } else if (error) {
     drop();
   } else if (websocket::is_upgrade(parser_->get())) {
@@ -75,7 +75,7 @@ void WebConnection::takeRequest(const Error& error) {
   } else {
     // Only a header that names no body is followed by another request.
     const bool has_body = parser_->chunked() || parser_->content_length().value_or(0) > 0;
-    send(owner_.answer(parser_->get(), has_body));
+    send(answerTo(parser_->get(), has_body, shared_.options.files, hasTls()));
   }
 }
 
@@ -115,14 +115,14 @@ void WebConnection::close() {
 
 void WebConnection::upgrade() {
   const WebRequest& request = parser_->get();
-  if (!owner_.mayOpen(textOf(request[http::field::origin]), textOf(request[http::field::host]),
-                      textOf(request[http::field::sec_websocket_protocol]))) {
-    send(refusalOf(http::status::forbidden, owner_.hasTls()));
+  if (!shared_.may_open(textOf(request[http::field::origin]), textOf(request[http::field::host]),
+                        textOf(request[http::field::sec_websocket_protocol]))) {
+    send(refusalOf(http::status::forbidden, hasTls()));
     return;
   }
-  const auto page = owner_.opened(*this);
+  const auto page = shared_.opened(*this);
   if (!page) {
-    send(refusalOf(http::status::service_unavailable, owner_.hasTls()));
+    send(refusalOf(http::status::service_unavailable, hasTls()));
     return;
   }
   page_ = *page;
@@ -137,9 +137,9 @@ void WebConnection::upgrade() {
   timeout.keep_alive_pings = true;
   socket_->set_option(timeout);
   socket_->set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
-    addSecurityHeaders(response, owner_.hasTls());
+    addSecurityHeaders(response, hasTls());
     if (response.result() == http::status::switching_protocols) {
-      response.set(http::field::sec_websocket_protocol, owner_.protocol());
+      response.set(http::field::sec_websocket_protocol, shared_.options.protocol);
     }
   }));
   socket_->auto_fragment(false);
@@ -179,9 +179,9 @@ void WebConnection::takeMessage(const Error& error) {
     why = "a message of more than " + std::to_string(kMaxMessageBytes) + " bytes";
   }
   if (!why.empty()) {
-    owner_.receivedInvalid(page_, why);
+    shared_.events.received_invalid(page_, why);
   } else if (!is_disconnecting_ && socket_->is_message_done()) {
-    owner_.received(page_, std::exchange(message_, ""));
+    shared_.events.received(page_, std::exchange(message_, ""));
   }
   if (!is_over_) readMessage();
 }
@@ -206,7 +206,7 @@ void WebConnection::disconnect(const std::string& why) {
 /// Sends the next message, unless another is being sent.
 void WebConnection::sendNext() {
   if (is_over_ || is_writing_ || is_closing_) return;
-  const auto message = owner_.next(page_);
+  const auto message = shared_.events.next(page_);
   if (message) {
     is_writing_ = true;
     if (!is_disconnecting_) expire(kWriteWithin);
@@ -238,7 +238,7 @@ void WebConnection::drop() {
   deadline_.cancel();
   WebStream& stream = socket_ ? socket_->next_layer() : *stream_;
   stream.socket().close(ignored);
-  owner_.closed(*this);
+  shared_.closed(*this);
 }
 
 }  // namespace robosim

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,28 +13,23 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "console/web_answer.h"
+#include "console/web_server.h"
 #include "console/web_stream.h"
 
 namespace robosim {
 
 class WebConnection;
 
-/// Interface of a connection to its server. Called in the server's thread.
-class WebConnectionOwner {
- public:
-  virtual ~WebConnectionOwner() = default;
-  virtual WebAnswer answer(const WebRequest& request, bool has_body) = 0;
-  virtual bool hasTls() const = 0;
+/// What the connections of a server share. The functions are called in the server's thread.
+struct SharedByConnections {
+  const WebServer::Options& options;
+  const WebPageEvents& events;
+  boost::asio::ssl::context* tls;  ///< null for none
   /// Whether a WebSocket may be opened; `offered` is what the page names as the subprotocol.
-  virtual bool mayOpen(const std::string& origin, const std::string& host, const std::string& offered) = 0;
-  virtual const std::string& protocol() const = 0;
+  std::function<bool(const std::string& origin, const std::string& host, const std::string& offered)> may_open;
   /// A WebSocket is open. @return its page's id; nullopt when there are too many
-  virtual std::optional<PageId> opened(WebConnection& connection) = 0;
-  virtual void received(PageId page, std::string_view text) = 0;
-  /// The page has sent a frame that is not a text message within the limits, and must be disconnected.
-  virtual void receivedInvalid(PageId page, const std::string& why) = 0;
-  virtual WebMessagePtr next(PageId page) = 0;
-  virtual void closed(WebConnection& connection) = 0;
+  std::function<std::optional<PageId>(WebConnection& connection)> opened;
+  std::function<void(WebConnection& connection)> closed;
 };
 
 /// Connection of a browser: TLS handshake, HTTP requests, and after an upgrade a WebSocket. Every wait has a deadline.
@@ -50,9 +46,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   static constexpr std::size_t kMaxHeaderBytes = 8192;
   static constexpr std::size_t kMaxMessageBytes = 4096;
 
-  /// @param number, peer as accepted @param tls null for none; it and the owner must outlive this
-  WebConnection(WebConnectionOwner& owner, WebStream::Socket socket, std::uint64_t number, std::string peer,
-                boost::asio::ssl::context* tls);
+  /// @param shared must outlive this @param number, peer as accepted
+  WebConnection(const SharedByConnections& shared, WebStream::Socket socket, std::uint64_t number, std::string peer);
 
   void start();
   /// A message for the page may be available.
@@ -81,8 +76,9 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   void takeMessage(const Error& error);
   void sendNext();
   void close();
+  bool hasTls() const { return shared_.tls != nullptr; }
 
-  WebConnectionOwner& owner_;
+  const SharedByConnections& shared_;
   const std::uint64_t number_;
   const std::string peer_;
   std::optional<WebStream> stream_;  ///< until there is a WebSocket

@@ -70,13 +70,13 @@ std::unique_ptr<asio::ssl::context> contextOf(const TlsIdentity& identity) {
 
 }  // namespace
 
-struct WebServer::Impl final : public WebConnectionOwner {
+struct WebServer::Impl {
   using Error = boost::system::error_code;
   using ConnectionPtr = std::shared_ptr<WebConnection>;
 
-  Impl(const Options& the_options, WebPageHandler& the_handler)
+  Impl(const Options& the_options, WebPageEvents the_events)
       : options(the_options),
-        handler(the_handler),
+        events(std::move(the_events)),
         tls(options.tls ? contextOf(*options.tls) : nullptr),
         acceptor({std::make_shared<const ConnectionListener>(options.listen, "--listen")},
                  {.pending = "connections without a WebSocket",
@@ -87,8 +87,8 @@ struct WebServer::Impl final : public WebConnectionOwner {
     awaitConnections();
     setTimer();
   }
-  ~Impl() override {
-    is_over = true;  // the handler may be destroyed by now
+  ~Impl() {
+    is_over = true;  // the object that handles events may be destroyed by now
     while (!connections.empty()) drop(connections.begin()->second);
     listening.release();
   }
@@ -101,25 +101,25 @@ struct WebServer::Impl final : public WebConnectionOwner {
   void setTimer();
   ConnectionPtr find(PageId page) const;
 
-  /// @name Calls of the connections
+  /// @name Called by the connections
   ///@{
-  WebAnswer answer(const WebRequest& request, bool has_body) override {
-    return answerTo(request, has_body, options.files, hasTls());
-  }
-  bool hasTls() const override { return tls != nullptr; }
-  const std::string& protocol() const override { return options.protocol; }
-  bool mayOpen(const std::string& origin, const std::string& host, const std::string& offered) override;
-  std::optional<PageId> opened(WebConnection& connection) override;
-  void received(PageId page, std::string_view text) override { handler.received(page, text); }
-  void receivedInvalid(PageId page, const std::string& why) override { handler.receivedInvalid(page, why); }
-  WebMessagePtr next(PageId page) override { return handler.next(page); }
-  void closed(WebConnection& connection) override;
+  bool mayOpen(const std::string& origin, const std::string& host, const std::string& offered);
+  std::optional<PageId> opened(WebConnection& connection);
+  void closed(WebConnection& connection);
   ///@}
 
   Options options;
-  WebPageHandler& handler;
+  const WebPageEvents events;
   LogLimiter log{[this](const std::string& line) { options.log(line); }};
   std::unique_ptr<asio::ssl::context> tls;
+  const SharedByConnections shared{
+      .options = options,
+      .events = events,
+      .tls = tls.get(),
+      .may_open = [this](const std::string& origin, const std::string& host,
+                         const std::string& offered) { return mayOpen(origin, host, offered); },
+      .opened = [this](WebConnection& connection) { return opened(connection); },
+      .closed = [this](WebConnection& connection) { closed(connection); }};
   asio::io_context context{1};
   ConnectionAcceptor acceptor;
   asio::posix::stream_descriptor listening;  ///< of the acceptor, which owns it
@@ -143,7 +143,7 @@ void WebServer::Impl::setTimer() {
   timer.async_wait([this](const Error& error) {
     if (error) return;
     log.reportSuppressed();
-    handler.tick();
+    events.tick();
     setTimer();
   });
 }
@@ -198,7 +198,7 @@ bool WebServer::Impl::take(const AcceptedConnection& accepted) {
   socket.assign(accepted.peer.is_ipv6 ? tcp::v6() : tcp::v4(), accepted.socket, error);
   if (error) return false;
   const auto connection =
-      std::make_shared<WebConnection>(*this, std::move(socket), accepted.number, accepted.peer.host, tls.get());
+      std::make_shared<WebConnection>(shared, std::move(socket), accepted.number, accepted.peer.host);
   connections[accepted.number] = connection;
   waiting.add(accepted.number, accepted.peer.network());
   return true;
@@ -227,7 +227,7 @@ std::optional<PageId> WebServer::Impl::opened(WebConnection& connection) {
   const PageId page = ++last_page;
   acceptor.release(connection.number());
   pages[page] = connections.at(connection.number());
-  handler.opened(page, connection.peer());
+  events.opened(page, connection.peer());
   return page;
 }
 
@@ -241,11 +241,11 @@ void WebServer::Impl::closed(WebConnection& connection) {
   acceptor.release(connection.number());
   waiting.remove(connection.number());
   connections.erase(connection.number());
-  if (pages.erase(page) > 0 && !is_over) handler.closed(page);
+  if (pages.erase(page) > 0 && !is_over) events.closed(page);
 }
 
-WebServer::WebServer(const Options& options, WebPageHandler& handler)
-    : impl_(std::make_unique<Impl>(options, handler)) {}
+WebServer::WebServer(const Options& options, WebPageEvents events)
+    : impl_(std::make_unique<Impl>(options, std::move(events))) {}
 WebServer::~WebServer() = default;
 
 int WebServer::port() const { return impl_->acceptor.listeners().front()->port(); }
@@ -258,7 +258,7 @@ void WebServer::requestTick() {
   if (impl_->is_tick_requested.exchange(true)) return;
   asio::post(impl_->context, [impl = impl_.get()] {
     impl->is_tick_requested = false;
-    if (!impl->is_over) impl->handler.tick();
+    if (!impl->is_over) impl->events.tick();
   });
 }
 

@@ -20,24 +20,22 @@ struct WebFile {
   std::span<const unsigned char> bytes;
 };
 
-/// Handler of WebSocket events. Called in the server's thread.
-class WebPageHandler {
- public:
-  virtual ~WebPageHandler() = default;
-  virtual void opened(PageId page, const std::string& peer) = 0;
-  virtual void received(PageId page, std::string_view text) = 0;
+/// What a server of pages calls, in its thread.
+struct WebPageEvents {
+  std::function<void(PageId page, const std::string& peer)> opened;
+  std::function<void(PageId page, std::string_view text)> received;
   /// The page has sent a frame that is not a text message within the limits. Must call WebServer::disconnect().
-  virtual void receivedInvalid(PageId page, const std::string& why) = 0;
-  virtual void closed(PageId page) = 0;
+  std::function<void(PageId page, const std::string& why)> received_invalid;
+  std::function<void(PageId page)> closed;
   /// The next message; null for none. Called after WebServer::wake() and after each message sent, when the connection
   /// accepts another, so that outdated state is never sent.
-  virtual WebMessagePtr next(PageId page) = 0;
+  std::function<WebMessagePtr(PageId page)> next;
   /// Called every WebServer::kTick, and after WebServer::requestTick().
-  virtual void tick() = 0;
+  std::function<void()> tick;
 };
 
 /// HTTP and WebSocket server of a page: Boost.Beast, in one thread. Converts sockets, TLS, HTTP and timers to the
-/// events of a WebPageHandler, and contains no logic of the console.
+/// WebPageEvents, and contains no logic of the console.
 ///
 /// Limits: those of every port (ConnectionAcceptor), with at most kMaxRequests connections without a WebSocket, each
 /// with a few seconds for its request; new ones use a fifth of a processor together, in turn by network. At most
@@ -57,9 +55,9 @@ class WebServer {
   };
 
   /// Opens the port.
-  /// @param handler must outlive this
+  /// @param events all set; not called during and after the destruction of this
   /// @throws std::runtime_error when it cannot be opened, and why.
-  WebServer(const Options& options, WebPageHandler& handler);
+  WebServer(const Options& options, WebPageEvents events);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
@@ -67,7 +65,7 @@ class WebServer {
   int port() const;
   /// Serves until `interrupted` returns true (polled at every tick).
   void serve(const std::function<bool()>& interrupted);
-  /// Schedules WebPageHandler::tick(). Thread-safe.
+  /// Schedules WebPageEvents::tick. Thread-safe.
   void requestTick();
 
   /// @name In the server's thread. No effect for pages that are no longer connected
