@@ -55,7 +55,7 @@ class PythonBatch {
 };
 
 /// @throws pybind11::type_error for an unknown weight, std::invalid_argument for one that is not finite
-RewardWeights weightsOf(const py::dict& given) {
+RewardWeights readWeights(const py::dict& given) {
   RewardWeights weights;
   const std::pair<const char*, double*> known[] = {{"win", &weights.win},
                                                    {"forward", &weights.forward},
@@ -222,7 +222,7 @@ void bindBatch(py::module_& module) {
     BatchOptions options{.environments = num_envs,
                          .agents = agents,
                          .observations = std::move(observations),
-                         .reward = weightsOf(reward),
+                         .reward = readWeights(reward),
                          .period_s = period_s,
                          .steps_max = max_steps,
                          .has_random_starts = random_starts,

@@ -79,7 +79,7 @@ WorldGenerator::MakeScenery sceneryMaker(const std::string& kind, const py::dict
   throw ConfigError("there is no generator '" + kind + "'; use maze, cave, office or open");
 }
 
-TeamOptions teamOf(int robots, std::vector<std::string> types, std::string controller, bool gold) {
+TeamOptions toTeamOptions(int robots, std::vector<std::string> types, std::string controller, bool gold) {
   return {robots, std::move(types), std::move(controller), gold};
 }
 
@@ -102,7 +102,7 @@ void bindGenerator(py::module_& module) {
       .def(py::init([](std::string kind, WholeNumber<"robots", int> robots, std::vector<std::string> types,
                        std::string controller, bool gold, const py::kwargs& options) {
              auto made = std::make_shared<PythonGenerator>(
-                 std::move(kind), teamOf(robots, std::move(types), std::move(controller), gold), options);
+                 std::move(kind), toTeamOptions(robots, std::move(types), std::move(controller), gold), options);
              made->forEpisodes();  // reports faults
              return made;
            }),
@@ -122,7 +122,7 @@ void bindGenerator(py::module_& module) {
 std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, Seed seed, WholeNumber<"robots", int> robots,
                                             std::vector<std::string> types, std::string controller, bool gold,
                                             const py::kwargs& options) {
-  const PythonGenerator made(kind, teamOf(robots, std::move(types), std::move(controller), gold), options);
+  const PythonGenerator made(kind, toTeamOptions(robots, std::move(types), std::move(controller), gold), options);
   const PythonReleased no_python;
   return made.generate(seed);
 }

@@ -17,11 +17,11 @@ namespace {
 namespace py = pybind11;
 
 template <typename T>
-py::array_t<T> arrayOf(const std::vector<T>& values) {
+py::array_t<T> toArray(const std::vector<T>& values) {
   return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-py::array_t<double> tableOf(const std::vector<const RecordedColumn*>& columns, std::size_t rows) {
+py::array_t<double> makeTable(const std::vector<const RecordedColumn*>& columns, std::size_t rows) {
   py::array_t<double> table({static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(columns.size())});
   double* out = table.mutable_data();
   for (std::size_t row = 0; row < rows; ++row) {
@@ -49,11 +49,11 @@ void addSeriesTo(py::dict& arrays, const RecordedSeries& series) {
     }
   }
   if (!numbers.empty()) {
-    arrays[toPython(label)] = tableOf(numbers, rows);
+    arrays[toPython(label)] = makeTable(numbers, rows);
     arrays[toPython(label + "/columns")] = names;
   }
-  arrays[toPython(label + "/step")] = arrayOf(series.steps);
-  arrays[toPython(label + "/time_s")] = arrayOf(series.times_s);
+  arrays[toPython(label + "/step")] = toArray(series.steps);
+  arrays[toPython(label + "/time_s")] = toArray(series.times_s);
 }
 
 py::tuple readRawlog(const std::filesystem::path& file) {

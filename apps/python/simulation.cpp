@@ -202,7 +202,7 @@ void Simulation::record(const std::filesystem::path& file) {
   refuseOverwriting(listInputFiles(world_->source.file, environment().world()), {file});
   std::vector<RobotInfo> robots;
   for (const auto& robot : environment().fleet().robots) robots.push_back(robot.info);
-  RunNote note = noteOf(world_->source, *run_, options_, elsewhere_);
+  RunNote note = makeNote(world_->source, *run_, options_, elsewhere_);
   recording_ =
       std::make_unique<RawlogWriter>(file, robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
   recorded_ = std::make_unique<RunNote>(std::move(note));

@@ -140,7 +140,7 @@ void printTables(const SweepPlan& plan, const SearchRuns& runs) {
 }
 
 /// One line per run.
-std::string csvOf(const SweepPlan& plan, const SearchRuns& runs) {
+std::string toCsv(const SweepPlan& plan, const SearchRuns& runs) {
   std::ostringstream csv;
   csv << "world,controller,seed,sim_time_s,ended_by,end_reason,driven_m,stalls,messages,digest";
   bool has_header = false;
@@ -183,7 +183,7 @@ void bench(const BenchArguments& arguments) {
       sweep, arguments.threads, [&] { return interrupt.isRequested(); }, [](const SearchRun&) {}, runs);
   printTables(plan, runs);
   if (csv) {
-    csv->write(csvOf(plan, runs));
+    csv->write(toCsv(plan, runs));
     csv->commit();
   }
   printBenchSpeed(plan.worlds, runs);

@@ -67,7 +67,7 @@ std::string worldArgument(const std::string& file, const std::string& name) {
 }
 
 /// The command that makes the same report, on one line.
-std::string commandOf(const GoldArguments& arguments, const SearchPlan& plan) {
+std::string describeCommand(const GoldArguments& arguments, const SearchPlan& plan) {
   std::string command = "robosim bench gold";
   const auto add = [&](const std::string& option, const std::string& value) {
     command += " " + option + " " + quoted(value);
@@ -194,7 +194,7 @@ void bench(const GoldArguments& arguments) {
                       (journal ? "; --resume makes the others, and then the report" : ""));
   }
   if (!journal) return;
-  writeReport(arguments.report, plan, runs, commandOf(arguments, plan));
+  writeReport(arguments.report, plan, runs, describeCommand(arguments, plan));
   std::cout << "report  " << printableText((fs::path(arguments.report) / "index.html").string()) << '\n';
 }
 

@@ -22,7 +22,7 @@ std::vector<std::pair<const char*, double>> settingsOf(const Communication& radi
           {"delay_s", radio.delay_s},         {"rate_hz", radio.rate_hz}};
 }
 
-nlohmann::ordered_json jsonOf(const SensorErrorSettings& errors) {
+nlohmann::ordered_json toJson(const SensorErrorSettings& errors) {
   nlohmann::ordered_json settings = nlohmann::ordered_json::object();
   for (const auto* part : {&errors.given, &errors.defaults}) {
     for (const auto& [name, text] : *part) {
@@ -68,7 +68,7 @@ nlohmann::ordered_json ErrorModels::json() const {
     all["sensors"].push_back({{"of", sensor.of},
                               {"sensor", sensor.sensor},
                               {"noise", sensor.settings.set},
-                              {"settings", jsonOf(sensor.settings)}});
+                              {"settings", toJson(sensor.settings)}});
   }
   for (const auto& [name, value] : reflectivities) all["reflectivity"][name] = value;
   if (!radio) return all;

@@ -100,14 +100,14 @@ std::string usage(const CLI::App& app, const std::string& name) {
 }
 
 /// The lines of a footer, with longer ones divided; those of a table, "  name  help", below the help.
-std::string footerOf(const CLI::App& app) {
+std::string makeFooter(const CLI::App& app) {
   std::istringstream lines(app.get_footer());
   std::string text;
   for (std::string line; std::getline(lines, line);) text += wrappedLine(line, kHelpColumns) + "\n";
   return text;
 }
 
-std::string helpOf(const CLI::App& app, std::string name) {
+std::string makeHelp(const CLI::App& app, std::string name) {
   name = CLI::detail::trim_copy(name);  // those of all commands from the program on
   std::string text;
   if (!app.get_description().empty()) text += wrappedLine(app.get_description(), kHelpColumns) + "\n";
@@ -139,13 +139,13 @@ std::string helpOf(const CLI::App& app, std::string name) {
   for (const CLI::App* subcommand : subcommands) {
     appendRow(text, "  " + subcommand->get_name(), subcommand->get_description());
   }
-  if (const std::string footer = footerOf(app); !footer.empty()) text += "\n" + footer;
+  if (const std::string footer = makeFooter(app); !footer.empty()) text += "\n" + footer;
   return text;
 }
 
 /// The option that an argument such as --time=5 or -p8101 is, of a command or of those above it whose options may
 /// follow it; null: none.
-const CLI::Option* optionOf(const CLI::App& command, const std::string& argument) {
+const CLI::Option* findOption(const CLI::App& command, const std::string& argument) {
   const bool is_long = argument.starts_with("--");
   const std::string name = is_long ? argument.substr(0, argument.find('=')) : argument.substr(0, 2);
   for (const CLI::App* app = &command; app != nullptr; app = app->get_fallthrough() ? app->get_parent() : nullptr) {
@@ -183,7 +183,7 @@ bool isOption(const std::string& argument) {
   return argument.size() > 1 && argument[0] == '-' && argument != "--" && !parseNumber(argument);
 }
 
-const CLI::App* subcommandOf(const CLI::App& command, const std::string& name) {
+const CLI::App* findSubcommand(const CLI::App& command, const std::string& name) {
   for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; })) {
     if (one->check_name(name)) return one;
   }
@@ -209,7 +209,7 @@ std::string unknownOption(const CLI::App& program, const CLI::App& command, cons
   if (const std::string nearest = didYouMean(name, optionNames(command)); !nearest.empty()) return text + nearest;
   if (!owners.empty()) return text + "; it is one of " + listed(owners) + help;
   for (const auto& word : later) {
-    if (!subcommandOf(command, word)) continue;
+    if (!findSubcommand(command, word)) continue;
     return text + "; options of a subcommand follow its name, as in " + path + " " + word + " " + quotable(name);
   }
   return text + help;
@@ -231,7 +231,7 @@ std::string unknownSubcommand(const CLI::App& command, const std::string& path, 
 
 void setHelpFormat(CLI::App& program) {
   partners().clear();  // of an earlier program, whose options may have had the addresses of those that follow
-  program.formatter_fn([](const CLI::App* app, std::string name, CLI::AppFormatMode) { return helpOf(*app, name); });
+  program.formatter_fn([](const CLI::App* app, std::string name, CLI::AppFormatMode) { return makeHelp(*app, name); });
 }
 
 CLI::Option* dependsOn(CLI::Option* option, const CLI::Option* partner) {
@@ -271,7 +271,7 @@ ArgumentError findArgumentError(const CLI::App& program, int argc, char** argv,
   for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     const std::string& argument = arguments[i];
     if (!isOption(argument)) {
-      const CLI::App* subcommand = subcommandOf(*command, argument);
+      const CLI::App* subcommand = findSubcommand(*command, argument);
       if (subcommand) {
         command = subcommand;
         error.command += " " + command->get_name();
@@ -281,7 +281,7 @@ ArgumentError findArgumentError(const CLI::App& program, int argc, char** argv,
       }
       continue;
     }
-    const CLI::Option* option = optionOf(*command, argument);
+    const CLI::Option* option = findOption(*command, argument);
     if (!option) {
       const std::string name = argument.substr(0, argument.find('='));
       const std::vector<std::string> later(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1, arguments.end());

@@ -33,7 +33,7 @@ struct GenerateArguments {
 };
 
 /// Kind and options as given, as a comment, in which "--" must not occur.
-std::string commentOf(const CLI::App& kind) {
+std::string makeComment(const CLI::App& kind) {
   std::string text = "<!-- Made by robosim generate " + kind.get_name();
   for (const CLI::Option* option : kind.get_options()) {
     if (option->count() == 0 || !option->nonpositional()) continue;
@@ -104,7 +104,7 @@ CLI::App& addKind(CLI::App& command, const std::shared_ptr<GenerateArguments>& a
   kind.add_flag("--no-gold", a->without_gold, "without gold, which otherwise lies far from all robots");
   kind.callback([a, make, &kind] {
     a->team.has_gold = !a->without_gold;
-    generate(*a, make(*a), commentOf(kind));
+    generate(*a, make(*a), makeComment(kind));
   });
   return kind;
 }

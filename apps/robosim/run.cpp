@@ -101,7 +101,7 @@ class RunFiles {
   RunFiles(const LocalRunArguments& arguments, const LocalRun& run, const std::optional<WorldSource>& source)
       : arguments_(arguments),
         run_(run),
-        note_(arguments.isRecorded() ? noteOf(*source, run, arguments.run) : RunNote()),
+        note_(arguments.isRecorded() ? makeNote(*source, run, arguments.run) : RunNote()),
         outputs_(arguments, run.environment(), note_),
         tables_(arguments.tables(), arguments.world, run.environment(), note_) {}
 
@@ -141,7 +141,7 @@ void checkArguments(const LocalRunArguments& arguments) {
 
 /// @param source kept for the recording's note
 LoadedWorld loadedWorld(const LocalRunArguments& arguments, std::optional<WorldSource>& source) {
-  if (arguments.isRecorded() || !arguments.changes.isNone()) source = sourceOf(arguments);
+  if (arguments.isRecorded() || !arguments.changes.isNone()) source = readRunSource(arguments);
   return source ? loadWorldToRun(*source, arguments.run.controller)
                 : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed);
 }

@@ -45,7 +45,7 @@ constexpr const char* kServeSession =
     "--json and the recording name robots and workers.\n";
 
 /// ARCOS programs keep real time: their run does, too.
-std::string paceOf(const ServeArguments& arguments) {
+std::string resolvePace(const ServeArguments& arguments) {
   if (!arguments.pace.empty()) return arguments.pace;
   return arguments.arcos.empty() ? "lockstep" : "realtime";
 }
@@ -53,7 +53,7 @@ std::string paceOf(const ServeArguments& arguments) {
 /// Policy for lost robots. By default a lockstep run waits for them, and a real-time run continues.
 OnLostRobot lostRobotPolicy(const ServeArguments& arguments) {
   if (arguments.on_lost_robot.empty()) {
-    return paceOf(arguments) == "realtime" ? OnLostRobot::continue_ : OnLostRobot::wait;
+    return resolvePace(arguments) == "realtime" ? OnLostRobot::continue_ : OnLostRobot::wait;
   }
   for (const auto policy : {OnLostRobot::wait, OnLostRobot::continue_}) {
     if (arguments.on_lost_robot == nameOf(policy)) return policy;
@@ -83,7 +83,7 @@ ServerOptions serverOptions(const ServeArguments& arguments) {
   options.access = arguments.listener.access(options.log);
   if (!arguments.listener.unprotected) checkExposure(options.listen, options.tls.has_value(), !options.access.isOpen());
   options.step_deadline = std::chrono::milliseconds(std::llround(arguments.step_deadline_s * 1000));
-  options.pace = paceOf(arguments) == "realtime" ? Pace::realtime : Pace::lockstep;
+  options.pace = resolvePace(arguments) == "realtime" ? Pace::realtime : Pace::lockstep;
   options.check_results = arguments.check_results;
   options.on_lost_robot = lostRobotPolicy(arguments);
   options.speed = speedNumber(arguments.of_run.speed);
@@ -135,7 +135,7 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
   if (arguments.arcos.empty()) {
     return std::nullopt;
   }
-  if (paceOf(arguments) != "realtime")
+  if (resolvePace(arguments) != "realtime")
     throw ConfigError("--arcos needs --pace realtime: ARCOS programs keep real time");
   ArcosOptions options;
   options.listen = hostAndPort(arguments.arcos);

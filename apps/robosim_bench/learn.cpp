@@ -124,7 +124,7 @@ nlohmann::json compareGenerated(std::uint32_t episode, double min_s) {
           {"generated_start_steps_per_s", 1 / costs[2].cpu_s}};
 }
 
-nlohmann::json memoryOf(std::size_t environments) {
+nlohmann::json measureMemory(std::size_t environments) {
   const Memory before = Memory::now();
   BatchOptions options;
   options.environments = environments;
@@ -163,7 +163,7 @@ void benchLearn(const LearnArguments& arguments) {
   for (const std::uint32_t episode : kMazeEpisodes) {
     figures["mazes"].push_back(runInChildProcess([&] { return compareGenerated(episode, arguments.min_s); }));
   }
-  figures["memory"] = runInChildProcess([] { return memoryOf(4096); });
+  figures["memory"] = runInChildProcess([] { return measureMemory(4096); });
   if (arguments.as_json) {
     std::cout << figures.dump(2) << '\n';
     return;

@@ -69,7 +69,7 @@ std::vector<std::size_t> sizes(const SpeedArguments& arguments) {
   return arguments.robots.empty() ? std::vector<std::size_t>{100, 1000, 10000} : arguments.robots;
 }
 
-std::vector<RobotLoad> loadsOf(const SpeedArguments& arguments) {
+std::vector<RobotLoad> makeLoads(const SpeedArguments& arguments) {
   if (arguments.targets) return standardLoads();
   std::vector<RobotLoad> loads;
   const auto add = [&](const Workload& workload) {
@@ -93,7 +93,7 @@ class SpeedBench {
 
   /// Prints JSON lines as the figures arrive, if requested.
   SpeedFigures measure() {
-    for (const auto& load : loadsOf(arguments_)) {
+    for (const auto& load : makeLoads(arguments_)) {
       figures_.loads.push_back(shown(textOf(load), [&] { return benchRobots(load, seed_, min_s_); }));
       if (arguments_.json) std::cout << toJson(figures_.loads.back()).dump() << std::endl;
     }
@@ -155,7 +155,7 @@ void print(const SpeedFigures& figures, bool with_targets) {
 
 void benchSpeed(const SpeedArguments& arguments) {
   if (!arguments.write_world.empty()) {
-    const auto loads = loadsOf(arguments);
+    const auto loads = makeLoads(arguments);
     if (arguments.workloads.size() + arguments.types.size() != 1 || loads.size() != 1)
       throw std::invalid_argument("--write-world: give one --workload or --robot-type, and one --robots");
     std::cout << writeWorld(arguments.write_world, *loads[0].workload, loads[0].robots, arguments.seed).string()

@@ -121,7 +121,7 @@ mrpt::math::TPoint2D errorOfRun(const UmbmarkOptions& options, int side, std::ui
   return {pose.x - measured.x, pose.y - measured.y};
 }
 
-mrpt::math::TPoint2D meanOf(const std::vector<mrpt::math::TPoint2D>& points) {
+mrpt::math::TPoint2D computeMean(const std::vector<mrpt::math::TPoint2D>& points) {
   mrpt::math::TPoint2D sum;
   for (const auto& point : points) sum += point;
   return sum * (1.0 / static_cast<double>(points.size()));
@@ -131,7 +131,7 @@ mrpt::math::TPoint2D meanOf(const std::vector<mrpt::math::TPoint2D>& points) {
 using Ends = std::array<double, 4>;
 
 /// Ends of squares whose sides are arcs that turn by `beta_rad`, and whose corners lack `alpha_rad`.
-Ends endsOf(double alpha_rad, double beta_rad, double side_m) {
+Ends computeEnds(double alpha_rad, double beta_rad, double side_m) {
   const double chord_m = beta_rad == 0 ? side_m : side_m * std::sin(beta_rad / 2) / (beta_rad / 2);
   Ends ends{};
   for (const int turn : {-1, 1}) {
@@ -150,9 +150,9 @@ Ends endsOf(double alpha_rad, double beta_rad, double side_m) {
 void refine(const Ends& measured, double side_m, double& alpha_rad, double& beta_rad) {
   constexpr double kDelta = 1e-6;
   for (int iteration = 0; iteration < 10; ++iteration) {
-    const Ends now = endsOf(alpha_rad, beta_rad, side_m);
-    const Ends by_alpha = endsOf(alpha_rad + kDelta, beta_rad, side_m);
-    const Ends by_beta = endsOf(alpha_rad, beta_rad + kDelta, side_m);
+    const Ends now = computeEnds(alpha_rad, beta_rad, side_m);
+    const Ends by_alpha = computeEnds(alpha_rad + kDelta, beta_rad, side_m);
+    const Ends by_beta = computeEnds(alpha_rad, beta_rad + kDelta, side_m);
     double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
     for (std::size_t i = 0; i < now.size(); ++i) {
       const double a = (by_alpha[i] - now[i]) / kDelta, b = (by_beta[i] - now[i]) / kDelta;
@@ -187,8 +187,8 @@ UmbmarkErrors driveUmbmark(const UmbmarkOptions& options) {
 
 UmbmarkResult UmbmarkResult::of(const UmbmarkErrors& errors, double side_m, double wheelbase_m) {
   UmbmarkResult r;
-  r.clockwise_m = meanOf(errors.clockwise);
-  r.counter_clockwise_m = meanOf(errors.counter_clockwise);
+  r.clockwise_m = computeMean(errors.clockwise);
+  r.counter_clockwise_m = computeMean(errors.counter_clockwise);
   r.error_max_m = std::max(r.clockwise_m.norm(), r.counter_clockwise_m.norm());
   r.alpha_rad = (r.clockwise_m.x + r.counter_clockwise_m.x) / (-4 * side_m);
   r.beta_rad = (r.clockwise_m.x - r.counter_clockwise_m.x) / (-4 * side_m);

@@ -90,7 +90,7 @@ class RunView final : public ViewSource {
   RunPaths paths_;
 };
 
-std::vector<Pane> panesOf(const Kind& kind, const World& world) {
+std::vector<Pane> makePanes(const Kind& kind, const World& world) {
   std::vector<Pane> panes;
   if (kind.is_2d) panes.push_back(makePane(false, std::nullopt, world));
   if (kind.is_3d) panes.push_back(makePane(true, std::nullopt, world));
@@ -103,7 +103,7 @@ void benchView(const ViewArguments& arguments) {
   std::vector<Contender> contenders;
   for (const Kind& kind : kKinds) {
     drawings.push_back(std::make_unique<ViewDrawing>(
-        source, [&kind](const LoadedWorld& world, AbsentRobots) { return panesOf(kind, world.world); }));
+        source, [&kind](const LoadedWorld& world, AbsentRobots) { return makePanes(kind, world.world); }));
     drawings.back()->panes().layers() = kind.layers;
     drawings.back()->panes().look() = kind.look;
     contenders.push_back({.work = [&source, &drawing = *drawings.back()] {

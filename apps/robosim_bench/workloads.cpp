@@ -57,7 +57,7 @@ RobotTypes typesOf(const Workload& workload) {
   return {{workload.name, {workload.name + ".xml", robotTypeText(workload)}}};
 }
 
-double radiusOf(const Workload& workload) {
+double computeRadius(const Workload& workload) {
   return workload.has_type ? robotOfType(knownTypes(), workload.name).model->radius_m : workload.scale * kRadius_m;
 }
 
@@ -121,7 +121,7 @@ World makeWorld(const Workload& workload, std::size_t robots, std::uint64_t seed
     if (i % 4 == 0) addObject(world, {.shape = Cube{4 * scale, 0.1 * scale}, .world_from_body = somewhere()});
   }
 
-  const double radius_m = radiusOf(workload);
+  const double radius_m = computeRadius(workload);
   const Places places(world, radius_m);
   // One robot starts in each square of a grid (4 m at scale 1), so that no two robots touch.
   const auto columns = static_cast<std::size_t>(std::ceil(2 * half_m / (4 * scale)));

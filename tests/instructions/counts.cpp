@@ -27,7 +27,7 @@ const char* unitOf(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> growthOf(const InstructionCounts& now, const InstructionCounts& kept) {
+std::vector<std::string> listGrowth(const InstructionCounts& now, const InstructionCounts& kept) {
   std::vector<std::string> faults;
   for (const auto& [name, count] : now.instructions) {
     const auto before = kept.instructions.find(name);
@@ -51,7 +51,7 @@ std::vector<std::string> growthOf(const InstructionCounts& now, const Instructio
   return faults;
 }
 
-std::vector<std::string> costlyErrorsOf(const InstructionCounts& now) {
+std::vector<std::string> listCostlyErrors(const InstructionCounts& now) {
   constexpr std::pair<const char*, double> kLimits[] = {{", Gaussian noise", 2.5}, {", all errors", 5}};
   std::vector<std::string> faults;
   for (const auto& [name, count] : now.instructions) {

@@ -21,12 +21,12 @@ constexpr double kGrowthAllowed = 0.1;
 
 /// Compares counts: a line for each load of `now` that exceeds `kept` by more than kGrowthAllowed, or that is in only
 /// one of the two; then a line on how to fix it. Empty if there is no difference.
-std::vector<std::string> growthOf(const InstructionCounts& now, const InstructionCounts& kept);
+std::vector<std::string> listGrowth(const InstructionCounts& now, const InstructionCounts& kept);
 
 /// Compares the loads with errors of sensors with those without: a line for each that exceeds its limit, which is 2.5
 /// times for "…, Gaussian noise" and 5 times for "…, all errors" and what follows it. Such a load without a load "…" is
 /// a fault, too.
-std::vector<std::string> costlyErrorsOf(const InstructionCounts& now);
+std::vector<std::string> listCostlyErrors(const InstructionCounts& now);
 
 /// A table row for each load of `now`: its count, and the difference from `kept`.
 std::string toTable(const InstructionCounts& now, const InstructionCounts& kept);

@@ -92,11 +92,11 @@ bool countAndCompare(const std::filesystem::path& file, bool update, Form form) 
     }
   }
   std::cout << toTable(now, kept);
-  auto faults = costlyErrorsOf(now);
+  auto faults = listCostlyErrors(now);
   if (update) {
     writeCounts(file, now);
   } else {
-    const auto growth = growthOf(now, kept);
+    const auto growth = listGrowth(now, kept);
     faults.insert(faults.end(), growth.begin(), growth.end());
   }
   for (const auto& fault : faults) std::cout << fault << '\n';

@@ -112,7 +112,7 @@ TEST(ArcosSerialLine, KeepsEveryCycleAt960BytesPerSecond) {
   SerialRelay relay(robot.port());
   ArcosHardware::Options options;
   std::string log;
-  options.type_of = [](const std::string& subclass) { return arcosTypeOf(subclass); };
+  options.type_of = [](const std::string& subclass) { return readArcosType(subclass); };
   options.log = [&](const std::string& line) { log += line + '\n'; };
   ArcosHardware hardware(openChannel("serial:" + relay.device() + ":9600"), std::move(options));
   EXPECT_NE(log.find("the scans of 'laser' need a line of 108300 baud"), std::string::npos) << log;

@@ -228,12 +228,12 @@ Ended parsedHere(const std::string& arguments) {
   return ended;
 }
 
-std::string helpOf(const std::string& command) { return parsedHere(command + " --help").out; }
+std::string makeHelp(const std::string& command) { return parsedHere(command + " --help").out; }
 
 /// A command and all its subcommands, as its help lists them.
 void addCommands(const std::string& command, std::vector<std::string>& all) {
   all.push_back(command);
-  std::istringstream lines(helpOf(command));
+  std::istringstream lines(makeHelp(command));
   bool is_list = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line == "Subcommands:") is_list = !line.empty();
@@ -257,7 +257,7 @@ const std::vector<std::string>& allCommands() {
 
 std::vector<ListedOption> optionsOf(const std::string& command, std::size_t* groups = nullptr) {
   std::vector<ListedOption> options;
-  std::istringstream lines(helpOf(command));
+  std::istringstream lines(makeHelp(command));
   std::string before;
   for (std::string line; std::getline(lines, line); before = line) {
     if (groups && line.starts_with("  -") && before.ends_with(":")) ++*groups;
@@ -277,7 +277,7 @@ std::vector<ListedOption> optionsOf(const std::string& command, std::size_t* gro
 
 TEST(Help, FitsInto100ColumnsAndGroupsManyOptions) {
   for (const auto& command : allCommands()) {
-    std::istringstream lines(helpOf(command));
+    std::istringstream lines(makeHelp(command));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(displayWidth(line), 100u) << command << ": " << line;
     std::size_t groups = 0;
     const auto options = optionsOf(command, &groups);
@@ -288,7 +288,7 @@ TEST(Help, FitsInto100ColumnsAndGroupsManyOptions) {
 
 TEST(Help, IsThatOfTheSubcommandOnly) {
   for (const auto& command : allCommands()) {
-    const bool has_codes = helpOf(command).find("serve and\n      remote run until") != std::string::npos;
+    const bool has_codes = makeHelp(command).find("serve and\n      remote run until") != std::string::npos;
     EXPECT_EQ(has_codes, command.empty()) << command;
   }
   EXPECT_EQ(runProgram("help run").out, runProgram("run --help").out);

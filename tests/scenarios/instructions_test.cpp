@@ -20,11 +20,11 @@ const char* const kHowToFix =
     "If what was gained is worth it, keep the new counts: ./dev bench --instructions --update";
 
 TEST(Instructions, MayGrowByTenPercentAndFallWithoutLimit) {
-  EXPECT_EQ(growthOf(counts(1100, 5000), counts(1000, 50000)), Lines{});
+  EXPECT_EQ(listGrowth(counts(1100, 5000), counts(1000, 50000)), Lines{});
 }
 
 TEST(Instructions, ReportLargerGrowthAndHowToFixIt) {
-  EXPECT_EQ(growthOf(counts(1000, 60500), counts(1000, 50000)),
+  EXPECT_EQ(listGrowth(counts(1000, 60500), counts(1000, 50000)),
             (Lines{"laser: 60,500 instructions a robot-step, which is +21.0 % on the 50,000 that are kept; +10 % is "
                    "allowed",
                    kHowToFix}));
@@ -33,7 +33,7 @@ TEST(Instructions, ReportLargerGrowthAndHowToFixIt) {
 TEST(Instructions, ReportAnotherCompiler) {
   InstructionCounts now = counts(1200, 50000);
   now.compiler = "g++ 13";
-  EXPECT_EQ(growthOf(now, counts(1000, 50000)),
+  EXPECT_EQ(listGrowth(now, counts(1000, 50000)),
             (Lines{"sonar: 1,200 instructions a robot-step, which is +20.0 % on the 1,000 that are kept; +10 % is "
                    "allowed",
                    "The counts that are kept are of g++ 12 for x86-64-v3, these of g++ 13 for x86-64-v3: they may "
@@ -45,7 +45,7 @@ TEST(Instructions, ReportNewAndMissingLoads) {
   InstructionCounts now = counts(1000, 50000);
   now.instructions.erase("laser");
   now.instructions["radar"] = 1;
-  EXPECT_EQ(growthOf(now, counts(1000, 50000)),
+  EXPECT_EQ(listGrowth(now, counts(1000, 50000)),
             (Lines{"radar: there is no count to compare with", "laser: a count is kept, but there is no such load",
                    kHowToFix}));
 }
@@ -55,11 +55,11 @@ TEST(Instructions, LimitTheCostOfErrorsOfSensors) {
   now.instructions["sonar, Gaussian noise"] = 2500;
   now.instructions["sonar, all errors"] = 5000;
   now.instructions["laser, mixed pixels"] = 900000;
-  EXPECT_EQ(costlyErrorsOf(now), Lines{});
+  EXPECT_EQ(listCostlyErrors(now), Lines{});
   now.instructions["sonar, Gaussian noise"] = 2510;
   now.instructions["laser, all errors of laser and sonars"] = 101000;
   now.instructions["radar, all errors"] = 1;
-  EXPECT_EQ(costlyErrorsOf(now),
+  EXPECT_EQ(listCostlyErrors(now),
             (Lines{"laser, all errors of laser and sonars: 5.05 times the instructions of laser; 5.0 times is allowed: "
                    "make the error model cheaper",
                    "radar, all errors: there is no load without errors to compare with",

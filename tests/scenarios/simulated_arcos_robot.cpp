@@ -35,7 +35,7 @@ std::unique_ptr<Environment> robotAlone(const std::string& type, const mrpt::mat
   return std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
 }
 
-ArcosRobotType arcosTypeOf(const std::string& type) {
+ArcosRobotType readArcosType(const std::string& type) {
   const FleetRobot robot = shippedRobot(type);
   return {robot.info, *robot.model->arcos};
 }
@@ -97,7 +97,7 @@ std::unique_ptr<ByteChannel> SimulatedArcosRobot::channel(Noise to_robot, Noise 
 
 ArcosHardware::Options SimulatedArcosRobot::options() {
   ArcosHardware::Options options;
-  options.type_of = [this](const std::string&) { return arcosTypeOf(type_); };
+  options.type_of = [this](const std::string&) { return readArcosType(type_); };
   options.log = [this](const std::string& line) { log_text += line + '\n'; };
   return options;
 }

@@ -63,6 +63,6 @@ class SimulatedArcosRobot final : private Simulator {
 /// An environment with one robot of a shipped type, as above.
 std::unique_ptr<Environment> robotAlone(const std::string& type, const mrpt::math::TPose2D& start = {},
                                         double room_m = 0);
-ArcosRobotType arcosTypeOf(const std::string& type);
+ArcosRobotType readArcosType(const std::string& type);
 
 }  // namespace robosim

@@ -32,12 +32,12 @@ struct Errors {
   std::vector<double> icp_slam_copy_m;  ///< of dequantised copies, ascending
 };
 
-double meanOf(const std::vector<double>& values) {
+double computeMean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// @param share of the values that are smaller
-double quantileOf(const std::vector<double>& ascending, double share) {
+double computeQuantile(const std::vector<double>& ascending, double share) {
   return ascending[static_cast<std::size_t>(std::lround(share * static_cast<double>(ascending.size() - 1)))];
 }
 
@@ -72,10 +72,10 @@ std::vector<std::string> rowOf(const std::string& name, const Errors& errors) {
           fixed(errors.odometry_m, 2),
           fixed(errors.localization_m, 3),
           fixed(errors.icp_slam_m, 3),
-          fixed(meanOf(copies), 3),
-          fixed(quantileOf(copies, 0.1), 3),
-          fixed(quantileOf(copies, 0.5), 3),
-          fixed(quantileOf(copies, 0.9), 3)};
+          fixed(computeMean(copies), 3),
+          fixed(computeQuantile(copies, 0.1), 3),
+          fixed(computeQuantile(copies, 0.5), 3),
+          fixed(computeQuantile(copies, 0.9), 3)};
 }
 
 void measure(const std::string& rawlog, const std::string& robot_type, std::uint64_t seeds) {
@@ -84,7 +84,8 @@ void measure(const std::string& rawlog, const std::string& robot_type, std::uint
   const Registration offline = registerScans(recorded);
   const SurfaceGrid surfaces(recorded, offline.start_from_robot);
   SimulatedSurroundings around{surfaces.solids(offline.start_from_robot, kClear_m), {}};
-  around.reflectivity = reflectivitiesOf(around.solids, recorded, offline.start_from_robot, laserOf(robot_type).errors);
+  around.reflectivity =
+      computeReflectivities(around.solids, recorded, offline.start_from_robot, laserOf(robot_type).errors);
   Rows rows{{"drive", "scans off surfaces", "odometry", "pf-localization", "icp-slam", "of copies, mean", "10 %",
              "50 %", "90 %"}};
   const Errors real = errorsOf(recorded, offline);
@@ -110,7 +111,7 @@ void measure(const std::string& rawlog, const std::string& robot_type, std::uint
   const auto larger = std::count_if(copies.begin(), copies.end(), [&](double m) { return m >= real.icp_slam_m; });
   std::cout << table(rows) << "Simulated by recorded: pf-localization "
             << fixed(mean.localization_m / real.localization_m, 2) << ", icp-slam "
-            << fixed(meanOf(copies) / meanOf(real.icp_slam_copy_m), 2) << " (copies), "
+            << fixed(computeMean(copies) / computeMean(real.icp_slam_copy_m), 2) << " (copies), "
             << fixed(mean.icp_slam_m / real.icp_slam_m, 2) << " (as recorded). " << larger << " of " << copies.size()
             << " simulated copies have at least the error of the recording.\n";
 }

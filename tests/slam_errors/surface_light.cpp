@@ -19,7 +19,7 @@ struct Meeting {
   bool has_echo = false;
 };
 
-double logLikelihoodOf(const std::vector<Meeting>& meetings, double log_reflectivity, double fading) {
+double computeLogLikelihood(const std::vector<Meeting>& meetings, double log_reflectivity, double fading) {
   double sum = 0;
   for (const auto& [log_power, has_echo] : meetings) {
     const double detected = (1 - kLost) / (1 + std::exp(-(log_power + log_reflectivity) / fading));
@@ -31,10 +31,10 @@ double logLikelihoodOf(const std::vector<Meeting>& meetings, double log_reflecti
 double mostLikely(const std::vector<Meeting>& meetings, double fading) {
   constexpr double kLeast = 1e-4;
   constexpr int kSteps = 200;  // of the logarithm, 5 % each
-  double best = 1, best_likelihood = logLikelihoodOf(meetings, 0, fading);
+  double best = 1, best_likelihood = computeLogLikelihood(meetings, 0, fading);
   for (int i = 1; i <= kSteps; ++i) {
     const double log_reflectivity = std::log(kLeast) * i / kSteps;
-    const double likelihood = logLikelihoodOf(meetings, log_reflectivity, fading);
+    const double likelihood = computeLogLikelihood(meetings, log_reflectivity, fading);
     if (likelihood <= best_likelihood) continue;
     best_likelihood = likelihood;
     best = std::exp(log_reflectivity);
@@ -44,8 +44,8 @@ double mostLikely(const std::vector<Meeting>& meetings, double fading) {
 
 }  // namespace
 
-std::vector<float> reflectivitiesOf(const std::vector<Solid>& solids, const ScanSeries& recorded,
-                                    const std::vector<mrpt::math::TPose2D>& path, const LaserErrors& errors) {
+std::vector<float> computeReflectivities(const std::vector<Solid>& solids, const ScanSeries& recorded,
+                                         const std::vector<mrpt::math::TPose2D>& path, const LaserErrors& errors) {
   constexpr double kArea_m = 60;
   const Scene scene(solids, 0, {-kArea_m, kArea_m, -kArea_m, kArea_m});
   std::vector<std::vector<Meeting>> meetings(solids.size());

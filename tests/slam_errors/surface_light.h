@@ -13,7 +13,7 @@ namespace robosim {
 /// none, as recorded, by the model of LaserErrors (reach_m and fading). Beams that received the echo of another surface
 /// do not count. kReflectivity for solids that no beam meets.
 /// @param path pose of the robot at each scan
-std::vector<float> reflectivitiesOf(const std::vector<Solid>& solids, const ScanSeries& recorded,
-                                    const std::vector<mrpt::math::TPose2D>& path, const LaserErrors& errors);
+std::vector<float> computeReflectivities(const std::vector<Solid>& solids, const ScanSeries& recorded,
+                                         const std::vector<mrpt::math::TPose2D>& path, const LaserErrors& errors);
 
 }  // namespace robosim

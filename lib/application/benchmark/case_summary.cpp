@@ -15,7 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 double timeOf(const SearchRun& run) { return run.found_s.value_or(kNever); }
 
 /// The `share` quantile of the values (nearest rank); infinity for an infinite one. @pre not empty
-double quantileOf(std::vector<double> values, double share) {
+double computeQuantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double rank = std::ceil(share * static_cast<double>(values.size()));
   return values[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
@@ -73,7 +73,7 @@ std::vector<CaseSummary> summarise(const SearchPlan& plan, const SearchRuns& run
     summary.success = shareInterval(summary.found, summary.runs);
     summary.median_s = medianTime(times);
     summary.median_interval_s = medianInterval(times, plan.seed);
-    summary.quantile90_s = quantileOf(found_s, 0.9);
+    summary.quantile90_s = computeQuantile(found_s, 0.9);
     summary.survival = survivalCurve(times);
     if (oracle) {
       SearchPlan::Case bound = summary.of;

@@ -39,7 +39,7 @@ constexpr Palette kDarkColors{{{0, 224, 255},
                                {154, 80, 255},
                                {255, 130, 121}}};
 
-std::string hexOf(const std::array<int, 3>& color) {
+std::string toHex(const std::array<int, 3>& color) {
   std::string hex = "#";
   for (const int part : color) {
     hex += "0123456789abcdef"[part / 16];
@@ -60,17 +60,17 @@ std::string lengthText(long tenths) {
   const long size = std::labs(tenths);
   return sign + std::to_string(size / 10) + (size % 10 == 0 ? "" : "." + std::to_string(size % 10));
 }
-long tenthsOf(double px) { return std::lround(10 * px); }
+long toTenths(double px) { return std::lround(10 * px); }
 
 /// Data of a path element, relative from point to point, which is short: "M62 30h209v122".
 std::string pathOf(const std::vector<ChartLine>& lines) {
   std::string path;
   for (const auto& line : lines) {
     if (line.empty()) continue;
-    long x = tenthsOf(line.front().x), y = tenthsOf(line.front().y);
+    long x = toTenths(line.front().x), y = toTenths(line.front().y);
     path += "M" + lengthText(x) + " " + lengthText(y);
     for (const auto& point : line) {
-      const long right = tenthsOf(point.x) - x, down = tenthsOf(point.y) - y;
+      const long right = toTenths(point.x) - x, down = toTenths(point.y) - y;
       x += right;
       y += down;
       if (right != 0 && down != 0) {
@@ -99,7 +99,7 @@ class SvgCanvas : public ChartCanvas {
           "c" + inkName(ink) + (pen_class.empty() ? "" : " " + pen_class) + (is_dashed ? " dash" : "");
       elements += classes.find(' ') == std::string::npos ? "class=" + classes : "class=\"" + classes + "\"";
     } else {
-      elements += "fill=\"none\" stroke=\"" + hexOf(paperColor(ink)) + "\" stroke-width=\"" + toText(widthOf(pen)) +
+      elements += "fill=\"none\" stroke=\"" + toHex(paperColor(ink)) + "\" stroke-width=\"" + toText(widthOf(pen)) +
                   "\"" + (pen == ChartPen::edge ? " stroke-opacity=\"" + toText(kEdgeOpacity) + "\"" : "") +
                   (is_dashed ? " stroke-dasharray=\"5 3\"" : "");
     }
@@ -109,13 +109,13 @@ class SvgCanvas : public ChartCanvas {
     elements += "<path ";
     elements += colors_ == ChartColors::page
                     ? "class=\"area a" + inkName(ink) + "\""
-                    : "fill=\"" + hexOf(paperColor(ink)) + "\" fill-opacity=\"" + toText(kAreaOpacity) + "\"";
+                    : "fill=\"" + toHex(paperColor(ink)) + "\" fill-opacity=\"" + toText(kAreaOpacity) + "\"";
     elements += " d=\"" + pathOf({points}) + "z\"/>\n";
   }
   void text(const ChartPoint& at, const std::string& text, ChartAnchor anchor, double size_px,
             bool is_upward) override {
     constexpr const char* kAnchors[] = {"", " text-anchor=\"middle\"", " text-anchor=\"end\""};
-    const std::string x = lengthText(tenthsOf(at.x)), y = lengthText(tenthsOf(at.y));
+    const std::string x = lengthText(toTenths(at.x)), y = lengthText(toTenths(at.y));
     elements += (is_upward ? "<text transform=\"translate(" + x + " " + y + ") rotate(-90)\""
                            : "<text x=\"" + x + "\" y=\"" + y + "\"") +
                 kAnchors[static_cast<int>(anchor)] +
@@ -195,7 +195,7 @@ std::string svgOf(const Chart& chart, ChartColors colors) {
   const std::string style = colors == ChartColors::page
                                 ? "class=chart"
                                 : "font-family=\"sans-serif\" font-size=\"" + fixed(kChartText_px, 0) + "\" fill=\"" +
-                                      hexOf(paperColor({ChartInk::kText})) + "\"";
+                                      toHex(paperColor({ChartInk::kText})) + "\"";
   const std::string space = colors == ChartColors::page ? "" : "xmlns=\"http://www.w3.org/2000/svg\" ";
   return "<svg " + space + "viewBox=\"0 0 " + width + " " + height + "\" width=\"" + width + "\" height=\"" + height +
          "\" " + style + " role=\"img\" aria-label=\"" + escapedHtml(chart.title) + "\">\n" + canvas.elements +
@@ -206,8 +206,8 @@ std::string chartStyle() {
   std::string light, dark, classes;
   for (int i = ChartInk::kGrid; i < kSeriesColors; ++i) {
     const std::string name = inkName({i});
-    light += "--c" + name + ":" + hexOf(paperColor({i})) + ";";
-    dark += "--c" + name + ":" + hexOf(darkColor({i})) + ";";
+    light += "--c" + name + ":" + toHex(paperColor({i})) + ";";
+    dark += "--c" + name + ":" + toHex(darkColor({i})) + ";";
     classes += ".c" + name + "{stroke:var(--c" + name + ")}";
     if (i >= 0) classes += ".chart .a" + name + "{fill:var(--c" + name + ")}";
   }

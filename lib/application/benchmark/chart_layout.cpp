@@ -69,7 +69,7 @@ void drawBand(const ChartSeries& series, const Axes& axes, ChartInk ink, bool is
   }
 }
 
-std::vector<double> marksOf(double min, double max, bool is_log2, int count) {
+std::vector<double> computeMarks(double min, double max, bool is_log2, int count) {
   std::vector<double> marks;
   if (!is_log2) {
     marks = roundMarks(min, max, count);
@@ -83,12 +83,12 @@ std::vector<double> marksOf(double min, double max, bool is_log2, int count) {
 void drawAxes(const Chart& chart, const Axes& axes, ChartCanvas& canvas) {
   std::vector<ChartLine> grid;
   const double floor_px = axes.floor();
-  for (const double mark : marksOf(chart.x_min, chart.x_max, chart.is_x_log2, 8)) {
+  for (const double mark : computeMarks(chart.x_min, chart.x_max, chart.is_x_log2, 8)) {
     const double x_px = axes.x(mark);
     grid.push_back({{x_px, floor_px}, {x_px, kTop_px}});
     canvas.text({x_px, floor_px + 17}, toText(mark), ChartAnchor::middle, kChartText_px);
   }
-  for (const double mark : marksOf(chart.y_min, chart.y_max, chart.is_y_log2, 5)) {
+  for (const double mark : computeMarks(chart.y_min, chart.y_max, chart.is_y_log2, 5)) {
     const double y_px = axes.y(mark);
     grid.push_back({{kLeft_px, y_px}, {kPlotRight_px, y_px}});
     canvas.text({kLeft_px - 8, y_px + 4}, toText(mark), ChartAnchor::end, kChartText_px);

@@ -12,7 +12,7 @@ constexpr double kBetween_px = 4;    ///< additionally between names
 constexpr std::size_t kLength = 30;  ///< of a line, in characters
 
 /// Number of characters of UTF-8 text; those from U+1000 on, most of which are as wide as high, count twice.
-std::size_t columnsOf(const std::string& text) {
+std::size_t countColumns(const std::string& text) {
   std::size_t columns = 0;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -27,7 +27,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t length) {
   std::vector<std::string> lines;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    if (!lines.empty() && columnsOf(lines.back()) + 1 + columnsOf(word) <= length) {
+    if (!lines.empty() && countColumns(lines.back()) + 1 + countColumns(word) <= length) {
       lines.back() += " " + word;
     } else {
       lines.push_back(word);
@@ -41,7 +41,7 @@ ChartLegend::ChartLegend(const Chart& chart) {
   std::size_t columns = 0;
   for (const auto& series : chart.series) {
     names_.push_back(wrapped(series.name, kLength));
-    for (const auto& line : names_.back()) columns = std::max(columns, columnsOf(line));
+    for (const auto& line : names_.back()) columns = std::max(columns, countColumns(line));
     height_px_ += static_cast<double>(names_.back().size()) * kLine_px + kBetween_px;
   }
   // Lower-case letters, digits and signs are 0.5 to 0.6 times as wide as the size of the font.

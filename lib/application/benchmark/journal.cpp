@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "robosim gold benchmark, journal 1";
 
-Json headerOf(const SearchPlan& plan) {
+Json makeHeader(const SearchPlan& plan) {
   return {{"format", kFormat}, {"robosim_version", ROBOSIM_VERSION}, {"plan", plan.json()}};
 }
 
@@ -50,7 +50,7 @@ Contents contentsOf(const std::filesystem::path& file, const SearchPlan& plan) {
     try {
       const Json json = Json::parse(line);
       if (number == 1) {
-        const Json expected = headerOf(plan);
+        const Json expected = makeHeader(plan);
         if (!json.is_object() || json.value("format", "") != kFormat) throw std::runtime_error("is no journal");
         if (json.at("robosim_version") != expected.at("robosim_version")) {
           throw ConfigError(where + "was written by RoboSim " + json.at("robosim_version").get<std::string>() +
@@ -102,7 +102,7 @@ Journal::Journal(std::filesystem::path file, const SearchPlan& plan, Mode mode,
     if (::ftruncate(descriptor_, static_cast<off_t>(complete_bytes_)) != 0) {
       throw ConfigError(file_.string() + ": cannot be written: " + std::strerror(errno));
     }
-    if (complete_bytes_ == 0) write(headerOf(plan).dump() + "\n");
+    if (complete_bytes_ == 0) write(makeHeader(plan).dump() + "\n");
     for (auto& run : contents.runs) {
       const std::size_t index = run.case_index * plan.runs + static_cast<std::size_t>(run.seed - plan.seed);
       finished(index, std::move(run));

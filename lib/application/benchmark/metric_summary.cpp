@@ -12,7 +12,7 @@ namespace {
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// The first value at which at most `searching` of the runs have none yet; infinite when there is none.
-double quantileOf(const std::vector<SurvivalStep>& curve, double searching) {
+double computeQuantile(const std::vector<SurvivalStep>& curve, double searching) {
   constexpr double kRounding = 1e-12;
   for (const auto& step : curve) {
     if (step.searching <= searching + kRounding) return step.time_s;
@@ -53,9 +53,9 @@ MetricSummary summaryOf(std::size_t metric, std::span<const SearchRun* const> ru
     return summary;
   }
   const auto curve = survivalCurve(times);
-  summary.quantile10 = quantileOf(curve, 0.9);
+  summary.quantile10 = computeQuantile(curve, 0.9);
   summary.median = medianTime(times);
-  summary.quantile90 = quantileOf(curve, 0.1);
+  summary.quantile90 = computeQuantile(curve, 0.1);
   summary.median_interval = medianInterval(times, seed);
   return summary;
 }

@@ -20,7 +20,7 @@ std::string conditionHeading(const SearchPlan& plan, std::size_t condition) {
   return plan.conditions.size() == 1 ? "" : "<h3>" + escapedHtml(plan.conditions[condition].text()) + "</h3>\n";
 }
 
-std::string chartsOf(std::span<const SearchFigure> figures, std::size_t world) {
+std::string makeCharts(std::span<const SearchFigure> figures, std::size_t world) {
   std::string charts;
   for (const auto& figure : figures) {
     if (figure.world == world) charts += svgOf(figure.chart, ChartColors::page);
@@ -28,7 +28,7 @@ std::string chartsOf(std::span<const SearchFigure> figures, std::size_t world) {
   return charts.empty() ? "" : "<div class=charts tabindex=0>\n" + charts + "</div>\n";
 }
 
-std::string overviewOf(const SearchPlan& plan, const SearchRuns& runs) {
+std::string makeOverview(const SearchPlan& plan, const SearchRuns& runs) {
   std::string html = "<h2>All worlds</h2>\n";
   for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
     html += conditionHeading(plan, condition) + overviewTable(plan, runs, condition);
@@ -41,7 +41,7 @@ std::string worldsOf(const SearchPlan& plan, std::span<const CaseSummary> summar
   const auto speed_up = speedUpFigures(plan, summaries);
   std::string html = "<h2>Each world</h2>\n";
   for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
-    std::string of_world = chartsOf(survival, world) + chartsOf(speed_up, world);
+    std::string of_world = makeCharts(survival, world) + makeCharts(speed_up, world);
     for (std::size_t condition = 0; condition < plan.conditions.size(); ++condition) {
       of_world += conditionHeading(plan, condition) + resultsTable(plan, summaries, world, condition);
     }
@@ -50,7 +50,7 @@ std::string worldsOf(const SearchPlan& plan, std::span<const CaseSummary> summar
   return html;
 }
 
-std::string comparisonsOf(const SearchPlan& plan, const SearchRuns& runs) {
+std::string makeComparisons(const SearchPlan& plan, const SearchRuns& runs) {
   if (plan.strategies.size() < 2) return "";
   std::string html =
       "<h2>Strategies compared</h2>\n<p class=quiet>All worlds together; comparisons.csv has each world.</p>\n";
@@ -106,8 +106,8 @@ constexpr const char* kMethods =
 std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std::string& command) {
   return reportPage("Gold benchmark",
                     "<p class=\"quiet\">" + escapedHtml(summaryLine(plan, runs)) + "</p>\n<pre>" +
-                        escapedHtml(command) + "</pre>\n" + overviewOf(plan, runs) +
-                        worldsOf(plan, summarise(plan, runs)) + comparisonsOf(plan, runs) +
+                        escapedHtml(command) + "</pre>\n" + makeOverview(plan, runs) +
+                        worldsOf(plan, summarise(plan, runs)) + makeComparisons(plan, runs) +
                         robustnessSection(plan, runs) + kMethods,
                     chartStyle());
 }

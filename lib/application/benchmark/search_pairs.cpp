@@ -9,7 +9,7 @@
 namespace robosim {
 namespace {
 
-double medianOf(std::vector<double> values) {
+double computeMedian(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
   if (values.size() % 2 == 1 || values[half] == values[half - 1]) return values[half];
@@ -50,7 +50,7 @@ std::optional<double> medianRatio(const SearchPairs& pairs) {
     }
   }
   if (ratios.empty()) return std::nullopt;
-  return medianOf(ratios);
+  return computeMedian(ratios);
 }
 
 }  // namespace robosim

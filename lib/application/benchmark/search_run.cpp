@@ -16,7 +16,7 @@ Json orNull(const std::optional<T>& value) {
 }
 
 template <typename T>
-std::optional<T> optionalOf(const Json& json) {
+std::optional<T> readOptional(const Json& json) {
   return json.is_null() ? std::nullopt : std::optional(json.get<T>());
 }
 
@@ -80,9 +80,9 @@ SearchRun SearchRun::fromJson(const Json& json) {
   run.sim_time_s = json.at("sim_time_s").get<double>();
   run.ended_by = json.at("ended_by").get<std::string>();
   run.end_reason = json.at("end_reason").get<std::string>();
-  run.found_by = optionalOf<std::string>(json.at("found_by"));
-  run.found_s = optionalOf<double>(json.at("found_s"));
-  run.all_halted_s = optionalOf<double>(json.at("all_halted_s"));
+  run.found_by = readOptional<std::string>(json.at("found_by"));
+  run.found_s = readOptional<double>(json.at("found_s"));
+  run.all_halted_s = readOptional<double>(json.at("all_halted_s"));
   run.driven_m = json.at("driven_m").get<double>();
   run.stalls = json.at("stalls").get<std::uint64_t>();
   run.messages_sent = json.at("messages_sent").get<std::uint64_t>();

@@ -9,7 +9,7 @@ namespace robosim {
 namespace {
 
 /// Largest change of any parameter.
-double changeOf(const BeamModel& a, const BeamModel& b) {
+double computeChange(const BeamModel& a, const BeamModel& b) {
   return std::max({std::abs(a.z_hit - b.z_hit), std::abs(a.z_short - b.z_short), std::abs(a.z_max - b.z_max),
                    std::abs(a.z_rand - b.z_rand), std::abs(a.sigma_hit_m - b.sigma_hit_m),
                    std::abs(a.lambda_short_per_m - b.lambda_short_per_m)});
@@ -57,7 +57,7 @@ BeamModel fitBeamModel(const std::vector<ExpectedReading>& readings, double rang
     next.z_rand = random / n;
     if (hit > 0) next.sigma_hit_m = std::max(kSmallestSigma_m, std::sqrt(squares_m2 / hit));
     if (short_sum_m > 0) next.lambda_short_per_m = brief / short_sum_m;
-    const bool has_converged = changeOf(model, next) < kConverged;
+    const bool has_converged = computeChange(model, next) < kConverged;
     model = next;
     if (has_converged) break;
   }

@@ -13,7 +13,7 @@ constexpr double kSmallestBin_m = 1e-5;
 double gaussianBelow(double x) { return 0.5 * std::erfc(-x * M_SQRT1_2); }
 
 /// Integral of gaussianBelow(), for standard deviation `std`.
-double rampOf(double x, double std) {
+double computeRamp(double x, double std) {
   return x * gaussianBelow(x / std) + std * std::exp(-x * x / (2 * std * std)) / std::sqrt(2 * M_PI);
 }
 
@@ -52,7 +52,7 @@ double BinnedSample::roughStd() const {
 double BinnedSample::cumulative(double at_m, double std_m) const {
   if (quantum_m_ == 0) return gaussianBelow(at_m / std_m);
   const double half_m = quantum_m_ / 2;
-  return (rampOf(at_m + half_m, std_m) - rampOf(at_m - half_m, std_m)) / quantum_m_;
+  return (computeRamp(at_m + half_m, std_m) - computeRamp(at_m - half_m, std_m)) / quantum_m_;
 }
 
 double BinnedSample::cumulative(double at_m, const NoiseShape& shape) const {

@@ -21,7 +21,7 @@ constexpr const char* kHistogramStyle =
     ".chart{max-width:45rem}.chart text{fill:var(--text)}";
 
 /// Shares of the differences in bins of equal width within ±kWidest_m.
-std::vector<double> sharesOf(const std::vector<double>& differences_m, double bin_m) {
+std::vector<double> computeShares(const std::vector<double>& differences_m, double bin_m) {
   const auto half = static_cast<long>(std::ceil(kWidest_m / bin_m));
   std::vector<double> shares(static_cast<std::size_t>(2 * half + 1));
   for (const double difference_m : differences_m) {
@@ -49,10 +49,10 @@ std::string valuesOf(const ScannerFit& fit) {
   return fit.basis == FitBasis::scans_at_rest ? "differences" : "residuals";
 }
 
-std::string histogramOf(const ScannerFit& fit, std::size_t band) {
+std::string makeHistogram(const ScannerFit& fit, std::size_t band) {
   const double bin_m = std::max(fit.model.errors.quantum_m, 0.002);
-  const auto real = sharesOf(fit.real.differences_m[band], bin_m);
-  const auto simulated = sharesOf(fit.simulated.differences_m[band], bin_m);
+  const auto real = computeShares(fit.real.differences_m[band], bin_m);
+  const auto simulated = computeShares(fit.simulated.differences_m[band], bin_m);
   const double largest =
       std::max(*std::max_element(real.begin(), real.end()), *std::max_element(simulated.begin(), simulated.end()));
   const std::string width = std::to_string(kWidth_px), height = std::to_string(kHeight_px);
@@ -73,7 +73,7 @@ std::string histogramOf(const ScannerFit& fit, std::size_t band) {
   return svg + "</svg>\n";
 }
 
-std::string excludedOf(const ScannerFit& fit) {
+std::string describeExcluded(const ScannerFit& fit) {
   HtmlTable table({"scans", "time [s]", "turned at unchanged odometry [°]", "standard errors"}, false);
   bool has_any = false;
   for (const auto& pair : fit.candidates) {
@@ -86,7 +86,7 @@ std::string excludedOf(const ScannerFit& fit) {
   return has_any ? table.html() : "<p>No pair at unchanged odometry was excluded.</p>\n";
 }
 
-std::string bandsOf(const ScannerFit& fit) {
+std::string describeBands(const ScannerFit& fit) {
   std::string html;
   for (std::size_t band = 0; band < kBands; ++band) {
     const std::size_t n = fit.real.differences_m[band].size();
@@ -108,7 +108,7 @@ std::string bandsOf(const ScannerFit& fit) {
               (fit.isBeyondBound(fold, band) ? " (<strong>differs</strong>)" : " (agrees)");
     }
     html += ".</p>\n";
-    html += "<div class=charts tabindex=0>\n" + histogramOf(fit, band) + "</div>\n";
+    html += "<div class=charts tabindex=0>\n" + makeHistogram(fit, band) + "</div>\n";
   }
   return html;
 }
@@ -128,8 +128,8 @@ std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
         "fitted errors are upper bounds of the scanner's own.</strong> Filled: held-out scans of the recording. Line: "
         "simulated by the errors of RoboSim's scanner that are fitted to the other scans.</p>\n";
   }
-  html += bandsOf(fit);
-  html += "<h2>Excluded pairs</h2>\n" + excludedOf(fit);
+  html += describeBands(fit);
+  html += "<h2>Excluded pairs</h2>\n" + describeExcluded(fit);
   html += "<h2>Model</h2>\n<pre class=\"columns\" tabindex=\"0\">" + escapedHtml(modelXml(fit, rawlog)) + "</pre>\n";
   return reportPage("Laser errors of " + rawlog, html, kHistogramStyle);
 }

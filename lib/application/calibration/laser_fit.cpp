@@ -66,7 +66,7 @@ double middleOf(std::size_t band) {
 }
 
 /// By how much pairs share scans: 0 for disjoint pairs, 1 if each scan is in two.
-double overlapOf(const PairStatistics& statistics) {
+double computeOverlap(const PairStatistics& statistics) {
   std::set<std::uint32_t> pairs;
   std::size_t adjacent = 0;
   for (const auto& origins : statistics.origins) {
@@ -149,7 +149,7 @@ class SampleFit {
     best_ = *std::max_element(fits_.begin(), fits_.end(),
                               [](const TailFit& a, const TailFit& b) { return a.likelihood < b.likelihood; });
     // Errors that a pair of scans has in common widen the intervals; they are no reason against a tail.
-    const double overlap = kind_ == Sample::differences ? overlapOf(statistics_) : 0;
+    const double overlap = kind_ == Sample::differences ? computeOverlap(statistics_) : 0;
     if (2 * (best_.likelihood - fits_.front().likelihood) / (1 + overlap) > kChiSquare99OfTwo) {
       chosen_ = best_;
       measureEffects();
@@ -159,7 +159,7 @@ class SampleFit {
   /// Design effects at the chosen fit. If each scan is in two pairs, the variance of a mean of squared differences is
   /// 1 + 2 (1/2)² times that of independent ones, and a reading of the tail affects two differences.
   void measureEffects() {
-    const double overlap = kind_ == Sample::differences ? overlapOf(statistics_) : 0;
+    const double overlap = kind_ == Sample::differences ? computeOverlap(statistics_) : 0;
     tail_effect_ = 1 + overlap;
     for (const auto& [band, sample] : bands_) {
       const auto scores = sample.scores(shapeOf(band), outliers_);
@@ -223,7 +223,7 @@ class SampleFit {
     for (const auto& origins : statistics_.origins) {
       for (const auto& origin : origins) terms.push_back({origin, -share});
     }
-    const double least = 1 + (kind_ == Sample::differences ? overlapOf(statistics_) : 0);
+    const double least = 1 + (kind_ == Sample::differences ? computeOverlap(statistics_) : 0);
     return std::max(least, designEffect(terms, static_cast<double>(statistics_.compared) * share * (1 - share)));
   }
 

@@ -33,9 +33,9 @@ constexpr std::size_t kFewestDifferences = 30;
 /// @throws Interrupted when a signal requests the end
 LaserFit fitLaser(const PairStatistics& statistics, double quantum_m);
 
-/// The same for residuals of single readings about the ranges that a map predicts (residualsOf(), map_residuals.h),
-/// with dropout as the share of readings without an echo. All errors are upper bounds of the scanner's own, because the
-/// residuals also contain errors of the motion and of the map.
+/// The same for residuals of single readings about the ranges that a map predicts (computeResiduals(),
+/// map_residuals.h), with dropout as the share of readings without an echo. All errors are upper bounds of the
+/// scanner's own, because the residuals also contain errors of the motion and of the map.
 LaserFit fitResiduals(const PairStatistics& residuals, double quantum_m);
 
 }  // namespace robosim

@@ -37,7 +37,7 @@ TEST(LaserFit, RecoversTheErrorsOfASimulatedScanner) {
   errors.tail = 0.05;
   errors.tail_factor = 5;
   const ScanSeries series = standingSeries(200, errors);
-  const LaserFit fit = fitLaser(statisticsOf(series, standingPairs(series)), estimateQuantum(series));
+  const LaserFit fit = fitLaser(computeStatistics(series, standingPairs(series)), estimateQuantum(series));
   EXPECT_DOUBLE_EQ(fit.errors.quantum_m, 0.01);
   for (std::size_t band = 0; band < kBands; ++band) EXPECT_NEAR(fit.std_m[band], 0.006, 0.0006) << bandName(band);
   EXPECT_NEAR(fit.errors.tail, 0.05, 0.03);
@@ -76,7 +76,7 @@ TEST(Dropout, IsTheShareOfLostEchoesOfSteadyBeams) {
   errors.dropout = echoes.dropout;
   errors.reach_m = 100;
   errors.fading = 0.1;
-  const double real = statisticsOf(series, pairs).flipRate();
+  const double real = computeStatistics(series, pairs).flipRate();
   // (171 · 2 · 0.01 · 0.99 + 10 · 2 · 0.5 · 0.5) / 181; the losses of all scans are known, those of a pair vary.
   EXPECT_NEAR(real, 0.0463, 0.004);
   EXPECT_NEAR(simulatePairs(series, pairs, errors, echoes, kJump_m, 2, 1).flipRate(), real, 0.003);

@@ -31,7 +31,7 @@ struct MixtureFit {
   double rate = 0, flickering = 0, likelihood = 0;
 };
 
-double likelihoodOf(const std::vector<BeamEchoes>& beams, double rate, double flickering) {
+double computeLikelihood(const std::vector<BeamEchoes>& beams, double rate, double flickering) {
   double sum = 0;
   for (const auto& beam : beams) {
     sum += std::log(std::max(1e-300, (1 - flickering) * std::exp(logBinomial(beam.lost, beam.scans, rate)) +
@@ -54,7 +54,7 @@ MixtureFit maximise(const std::vector<BeamEchoes>& beams, double rate) {
     if (scans > 0) rate = lost / scans;
     flickering = 1 - steady / static_cast<double>(beams.size());
   }
-  return {rate, flickering, likelihoodOf(beams, rate, flickering)};
+  return {rate, flickering, computeLikelihood(beams, rate, flickering)};
 }
 
 void estimateReach(const std::vector<BeamEchoes>& beams, LostEchoes& echoes) {
@@ -98,7 +98,7 @@ LostEchoes countLostEchoes(const ScanSeries& series, const std::vector<ScanPair>
   for (const auto& beam : beams) shares.push_back(static_cast<double>(beam.lost) / static_cast<double>(beam.scans));
   std::nth_element(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2), shares.end());
   // The likelihood may have several maxima: from the median of the beams, from few losses, and from all of them.
-  MixtureFit best{.rate = echoes.dropout, .flickering = 0, .likelihood = likelihoodOf(beams, echoes.dropout, 0)};
+  MixtureFit best{.rate = echoes.dropout, .flickering = 0, .likelihood = computeLikelihood(beams, echoes.dropout, 0)};
   constexpr double kSignificant = 10.83 / 2;  // 99.9 % quantile of χ² with one degree of freedom
   const double without = best.likelihood;
   for (const double start : {shares[shares.size() / 2], 0.5 / static_cast<double>(beams.front().scans), best.rate}) {

@@ -18,7 +18,7 @@ std::vector<ExpectedReading> readingsOfScans(const MatchedReadings& matched, std
   return readings;
 }
 
-PairStatistics residualsOf(const std::vector<ExpectedReading>& readings, double jump_m, double range_max_m) {
+PairStatistics computeResiduals(const std::vector<ExpectedReading>& readings, double jump_m, double range_max_m) {
   std::vector<double> expected_m, read_m;
   for (const auto& reading : readings) {
     expected_m.push_back(reading.expected_m);
@@ -45,7 +45,7 @@ PairStatistics simulateResiduals(const std::vector<ExpectedReading>& readings, c
       const double read_m = process.readingOf(reading.expected_m, kPower, 0, draw);
       reading.read_m = read_m < range_max_m ? read_m : std::numeric_limits<double>::quiet_NaN();
     }
-    all.add(residualsOf(simulated, jump_m, range_max_m));
+    all.add(computeResiduals(simulated, jump_m, range_max_m));
   }
   return all;
 }

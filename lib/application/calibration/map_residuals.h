@@ -13,8 +13,8 @@ std::vector<ExpectedReading> readingsOfScans(const MatchedReadings& matched, std
 
 /// Residuals of readings about their expected ranges, as a PairStatistics whose first scan is the expected one: a
 /// difference is a residual, a jump a residual above jump_m, and a change of validity a lost echo.
-PairStatistics residualsOf(const std::vector<ExpectedReading>& readings, double jump_m = kJump_m,
-                           double range_max_m = 0);
+PairStatistics computeResiduals(const std::vector<ExpectedReading>& readings, double jump_m = kJump_m,
+                                double range_max_m = 0);
 
 /// Residuals of simulated readings: each expected range is measured `count` times with these errors, by the error
 /// process of RoboSim's scanner.

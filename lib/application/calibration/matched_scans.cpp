@@ -31,20 +31,20 @@ struct Surface {
   std::vector<Segment> segments;  ///< in the map's frame
 };
 
-TPoint2D pointOf(const ScanSeries& series, std::size_t beam, double range_m) {
+TPoint2D toPoint(const ScanSeries& series, std::size_t beam, double range_m) {
   const double bearing_rad = series.first_rad + series.step_rad * static_cast<double>(beam);
   return {range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)};
 }
 
-Surface surfaceOf(const ScanSeries& series, const std::vector<double>& ranges_m, const TPose2D& map_from_scan) {
+Surface toSurface(const ScanSeries& series, const std::vector<double>& ranges_m, const TPose2D& map_from_scan) {
   Surface surface{map_from_scan, {}};
   for (std::size_t i = 0; i + 1 < ranges_m.size(); ++i) {
     if (std::isnan(ranges_m[i]) || std::isnan(ranges_m[i + 1])) continue;
     const double smaller_m = std::min(ranges_m[i], ranges_m[i + 1]);
     // A surface at up to 80° of incidence.
     if (std::abs(ranges_m[i] - ranges_m[i + 1]) > 6 * smaller_m * series.step_rad + 0.03) continue;
-    surface.segments.push_back({map_from_scan.composePoint(pointOf(series, i, ranges_m[i])),
-                                map_from_scan.composePoint(pointOf(series, i + 1, ranges_m[i + 1]))});
+    surface.segments.push_back({map_from_scan.composePoint(toPoint(series, i, ranges_m[i])),
+                                map_from_scan.composePoint(toPoint(series, i + 1, ranges_m[i + 1]))});
   }
   return surface;
 }
@@ -100,7 +100,7 @@ std::size_t align(const ScanSeries& series, const std::vector<double>& ranges_m,
     const TPoint2D center(map_from_scan.x, map_from_scan.y);
     for (std::size_t i = 0; i < ranges_m.size(); ++i) {
       if (std::isnan(ranges_m[i])) continue;
-      const TPoint2D p = map_from_scan.composePoint(pointOf(series, i, ranges_m[i]));
+      const TPoint2D p = map_from_scan.composePoint(toPoint(series, i, ranges_m[i]));
       double best_m = farthest_m;
       const Segment* best = nullptr;
       for (const auto& surface : map) {
@@ -190,14 +190,14 @@ MatchedReadings matchScans(const ScanSeries& series, MapRange range) {
         ++matched.matched;
         matched.first_of_scan.push_back(matched.readings.size());
         for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-          const TPoint2D ahead = map_from_scan.composePoint(pointOf(series, i, 1));
+          const TPoint2D ahead = map_from_scan.composePoint(toPoint(series, i, 1));
           const TPoint2D from(map_from_scan.x, map_from_scan.y);
           const double expected_m = castInto(map, from, ahead - from, range);
           if (expected_m < series.range_max_m) matched.readings.push_back({scan.ranges_m[i], expected_m});
         }
       }
     }
-    map.push_back(surfaceOf(series, scan.ranges_m, map_from_scan));
+    map.push_back(toSurface(series, scan.ranges_m, map_from_scan));
     if (map.size() > kMapScans) map.pop_front();
   }
   return matched;

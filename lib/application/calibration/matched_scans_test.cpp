@@ -54,7 +54,7 @@ TEST(MapResiduals, BoundTheNoiseOfTheScannerFromAbove) {
   constexpr double kStd_m = 0.01;
   const MatchedReadings matched = matchScans(drivingSeries(kStd_m), MapRange::mean);
   ASSERT_EQ(matched.first_of_scan.size(), 19u);
-  const LaserFit fit = fitResiduals(residualsOf(matched.readings), 0);
+  const LaserFit fit = fitResiduals(computeResiduals(matched.readings), 0);
   // Variance of a point between two others: 2/3 on average; of the mean of three surfaces 2/9, of those before the
   // first two scans 2/3 and 1/3. (17 · 2/9 + 2/3 + 1/3) / 19 = 0.25, so √1.25 = 1.118 times the noise of the reading.
   // Some 1000 readings in each band: standard error 2.2 %.
@@ -98,7 +98,7 @@ TEST(MatchedScans, EndWhenASignalRequestsIt) {
     const Interrupt interrupt;
     std::raise(SIGINT);
     EXPECT_THROW(matchScans(series), Interrupted);
-    EXPECT_THROW(fitLaser(statisticsOf(series, {{.first = 0}}), 0), Interrupted);
+    EXPECT_THROW(fitLaser(computeStatistics(series, {{.first = 0}}), 0), Interrupted);
     EXPECT_THROW(simulatePairs(series, {{.first = 0}}, {}, {}, kJump_m, 1, 1), Interrupted);
     EXPECT_THROW(fitBeamModel({{1, 1}}, 20), Interrupted);
   }

@@ -68,7 +68,7 @@ void PairStatistics::add(const PairStatistics& other) {
   outlier_window += other.outlier_window;
 }
 
-PairStatistics statisticsOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double jump_m) {
+PairStatistics computeStatistics(const ScanSeries& series, const std::vector<ScanPair>& pairs, double jump_m) {
   PairStatistics statistics{.jump_m = jump_m, .range_max_m = series.range_max_m};
   for (const auto& group : standingGroups(series, pairs)) {
     const std::vector<double> range_m = medianRanges(series, group);
@@ -92,7 +92,7 @@ double computeJumpLimit(std::vector<double> differences_m, double quantum_m) {
 }
 
 double computeJumpLimit(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
-  const PairStatistics all = statisticsOf(series, pairs, std::numeric_limits<double>::infinity());
+  const PairStatistics all = computeStatistics(series, pairs, std::numeric_limits<double>::infinity());
   std::vector<double> differences_m;
   for (const auto& of_band : all.differences_m)
     differences_m.insert(differences_m.end(), of_band.begin(), of_band.end());

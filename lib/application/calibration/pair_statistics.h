@@ -48,7 +48,7 @@ struct PairStatistics {
 };
 
 /// Statistics of pairs of scans at rest, with bands by the median range of each beam at its place.
-PairStatistics statisticsOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double jump_m = kJump_m);
+PairStatistics computeStatistics(const ScanSeries& series, const std::vector<ScanPair>& pairs, double jump_m = kJump_m);
 
 /// Limit above which a difference is a jump: kJump_m, or six times the robust standard deviation of the differences
 /// (1.4826 times the median of their absolute values) if that is more, so that it is no part of the noise. Between two

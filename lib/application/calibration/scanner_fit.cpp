@@ -61,7 +61,7 @@ struct StandingModel {
 };
 
 StandingModel modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m, double jump_m) {
-  const PairStatistics statistics = statisticsOf(series, pairs, jump_m);
+  const PairStatistics statistics = computeStatistics(series, pairs, jump_m);
   StandingModel model{.fit = fitLaser(statistics, quantum_m), .echoes = countLostEchoes(series, pairs), .scene = {}};
   LaserFit& fit = model.fit;
   fit.errors.dropout = model.echoes.dropout;
@@ -102,7 +102,7 @@ void fitPairs(ScannerFit& fit, Progress& progress) {
     fold.held_out = everySecond(fit.used, 1 - i);
     const StandingModel half = modelOf(fit.series, fold.fitted, quantum_m, jump_m);
     fold.model = half.fit;
-    fold.real = statisticsOf(fit.series, fold.held_out, jump_m);
+    fold.real = computeStatistics(fit.series, fold.held_out, jump_m);
     const std::size_t count = std::clamp(kSimulatedDifferences / std::max<std::size_t>(1, fold.real.beams),
                                          kSimulatedPerPairMin, kSimulatedPerPairMax);
     fold.simulated = simulatePairs(fit.series, fold.fitted, half.scene, half.echoes, jump_m, count, kSeed + i);
@@ -139,20 +139,21 @@ void fitDrive(ScannerFit& fit, const std::string& rawlog, Progress& progress) {
     if (!std::isnan(reading.read_m)) residuals_m.push_back(reading.read_m - reading.expected_m);
   }
   const double jump_m = computeJumpLimit(std::move(residuals_m), quantum_m);
-  fit.model = fitResiduals(residualsOf(fit.map_readings.readings, jump_m, range_max_m), quantum_m);
+  fit.model = fitResiduals(computeResiduals(fit.map_readings.readings, jump_m, range_max_m), quantum_m);
   fit.map_model = fitBeamModel(fit.map_readings.readings, range_max_m);
   for (std::size_t i = 0; i < fit.folds.size(); ++i) {
     progress.show("comparing with held-out scans …");
     HeldOutFit& fold = fit.folds[i];
     const auto held_out = readingsOfScans(fit.map_readings, 1 - i, 2);
-    fold.model = fitResiduals(residualsOf(readingsOfScans(fit.map_readings, i, 2), jump_m, range_max_m), quantum_m);
-    fold.real = residualsOf(held_out, jump_m, range_max_m);
+    fold.model =
+        fitResiduals(computeResiduals(readingsOfScans(fit.map_readings, i, 2), jump_m, range_max_m), quantum_m);
+    fold.real = computeResiduals(held_out, jump_m, range_max_m);
     fold.simulated =
         simulateResiduals(held_out, fold.model.errors, jump_m, range_max_m, kSimulatedPerReading, kSeed + i);
   }
 }
 
-std::string basisOf(const ScannerFit& fit) {
+std::string describeBasis(const ScannerFit& fit) {
   if (fit.basis == FitBasis::scans_at_rest) return std::to_string(fit.used.size()) + " pairs of scans at rest";
   return "the residuals of " + withCommas(fit.map_readings.matched) + " scans about the map of the scans before them";
 }
@@ -299,7 +300,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   std::string name = rawlog.substr(rawlog.find_last_of('/') + 1);
   for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
   std::string text = toXml(laser);
-  const std::string comment = "<!-- Fitted to " + basisOf(fit) + " of " + name + boundsOf(fit) +
+  const std::string comment = "<!-- Fitted to " + describeBasis(fit) + " of " + name + boundsOf(fit) +
                               ". In the <sensors> of a robot type: <include file=\"laser.xml\" z_m=\"0.3\"/>\n" +
                               "     Estimates with intervals of 95 %:\n" + parametersOf(fit, "     ") + "-->\n";
   return text.insert(text.find('\n') + 1, comment);  // after the declaration
@@ -312,7 +313,7 @@ std::string summaryOf(const ScannerFit& fit) {
                      std::to_string(fit.used.size()) + " pairs of scans; " +
                      std::to_string(fit.candidates.size() - fit.used.size()) +
                      " excluded, because the scans contradict the odometry\n";
-  if (!is_at_rest) text += "fitted    to " + basisOf(fit) + boundsOf(fit) + "\n";
+  if (!is_at_rest) text += "fitted    to " + describeBasis(fit) + boundsOf(fit) + "\n";
   text += "errors    quantum " + fixed(fit.model.errors.quantum_m, 3) + " m; with intervals of 95 %:\n" +
           parametersOf(fit, "          ");
   if (is_at_rest) text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";

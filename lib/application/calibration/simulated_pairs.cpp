@@ -18,7 +18,7 @@ constexpr double kWidth = 0.9;
 
 /// Share of the echoes that the surface returns such that the share v of valid readings gives 2 v (1 − v) changes,
 /// because readings are independent in the simulation.
-double shareOf(const SeenSurface& seen, double dropout) {
+double computeShare(const SeenSurface& seen, double dropout) {
   const double off_half = std::sqrt(std::max(0.0, 0.25 - seen.flips / 2));
   const double valid = seen.valid > 0.5 ? 0.5 + off_half : 0.5 - off_half;
   return std::min(1.0, valid / (1 - dropout));
@@ -42,7 +42,7 @@ class StandingScanner {
  public:
   StandingScanner(const ScanSeries& series, const std::vector<SeenSurface>& seen, const LaserErrors& errors,
                   std::uint64_t seed)
-      : seed_(seed), scene_(wallsOf(series, seen, errors), 1, {-1, 1, -1, 1}) {
+      : seed_(seed), scene_(makeWalls(series, seen, errors), 1, {-1, 1, -1, 1}) {
     double farthest_m = series.range_max_m;
     for (const auto& surface : seen) farthest_m = std::max(farthest_m, surface.range_m + 1);
     SensorInfo info{.kind = SensorKind::laser, .label = series.label, .beams = {}};
@@ -84,14 +84,14 @@ class StandingScanner {
     return series.first_rad + series.step_rad * static_cast<double>(beam);
   }
 
-  std::vector<Solid> wallsOf(const ScanSeries& series, const std::vector<SeenSurface>& seen,
-                             const LaserErrors& errors) {
+  std::vector<Solid> makeWalls(const ScanSeries& series, const std::vector<SeenSurface>& seen,
+                               const LaserErrors& errors) {
     std::vector<Solid> walls;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (seen[i].range_m <= 0) continue;
       walls.push_back(wallFor(bearingOf(series, i), seen[i].range_m, series.step_rad));
       reflectivity_.push_back(static_cast<float>(
-          errors.reach_m > 0 ? reflectivityOf(errors, seen[i].range_m, shareOf(seen[i], errors.dropout))
+          errors.reach_m > 0 ? reflectivityOf(errors, seen[i].range_m, computeShare(seen[i], errors.dropout))
                              : kReflectivity));
     }
     return walls;

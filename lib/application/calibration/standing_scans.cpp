@@ -34,7 +34,7 @@ bool isInverted(const mrpt::obs::CObservation2DRangeScan& observation) {
 }
 
 /// The ranges in anticlockwise order as seen from above, whatever the order and the mounting of the scanner are.
-RecordedScan scanOf(const mrpt::obs::CObservation2DRangeScan& observation, double time_s) {
+RecordedScan toRecordedScan(const mrpt::obs::CObservation2DRangeScan& observation, double time_s) {
   RecordedScan scan{.time_s = time_s, .ranges_m = {}, .odometry = {}};
   for (std::size_t i = 0; i < observation.getScanSize(); ++i) {
     const double range_m = static_cast<double>(observation.getScanRange(i));
@@ -78,7 +78,8 @@ bool areSamePose(const mrpt::math::TPose3D& a, const mrpt::math::TPose3D& b) {
   return true;
 }
 
-MountedScanner& scannerOf(const mrpt::obs::CObservation2DRangeScan& observation, std::vector<MountedScanner>& all) {
+MountedScanner& findOrAddScanner(const mrpt::obs::CObservation2DRangeScan& observation,
+                                 std::vector<MountedScanner>& all) {
   const auto pose = observation.sensorPose.asTPose();
   for (auto& scanner : all) {
     if (scanner.label == observation.sensorLabel && areSamePose(scanner.pose, pose)) return scanner;
@@ -190,8 +191,8 @@ ScanSeries readScans(const std::string& rawlog, const std::string& sensor,
     if (const auto* odo = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get())) {
       odometry[robotOf(odo->sensorLabel)] = odo->odometry.asTPose();
     } else if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get())) {
-      ScanSeries& series = scannerOf(*scan, all).series;
-      RecordedScan read = scanOf(*scan, time_s);
+      ScanSeries& series = findOrAddScanner(*scan, all).series;
+      RecordedScan read = toRecordedScan(*scan, time_s);
       if (!series.scans.empty() && series.scans.front().ranges_m.size() != read.ranges_m.size()) continue;
       const auto at = odometry.find(robotOf(scan->sensorLabel));
       if (at != odometry.end()) read.odometry = at->second;

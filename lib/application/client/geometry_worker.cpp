@@ -18,7 +18,7 @@ namespace {
 /// Well below gRPC's limit of 4 MiB per message.
 constexpr std::size_t kResultPieceBytes = 1 << 20;
 
-std::unique_ptr<Environment> replicaOf(const internal::Replica& replica, int threads) {
+std::unique_ptr<Environment> makeReplica(const internal::Replica& replica, int threads) {
   LoadedWorld world = loadWorld(decode(replica.world()), {});
   return std::make_unique<Environment>(
       std::move(world.world), std::move(world.fleet),
@@ -90,7 +90,7 @@ struct GeometryWorker::Impl {
 
   void build() {
     if (!in.has_replica()) throw WireError("the environment gave a task before a world");
-    replica = replicaOf(in.replica(), threads);
+    replica = makeReplica(in.replica(), threads);
     out.Clear();
     out.mutable_ready()->set_world_version(versionOf(decode(in.replica().world())));
     send();

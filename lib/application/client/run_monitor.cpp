@@ -14,7 +14,7 @@ namespace {
 constexpr std::chrono::milliseconds kReconnectPause{500};
 constexpr std::chrono::milliseconds kStatusPeriod{250};
 
-RunView::Phase phaseOf(v1::RunPhase phase) {
+RunView::Phase toPhase(v1::RunPhase phase) {
   switch (phase) {
     case v1::RUN_PHASE_WAITING:
       return RunView::Phase::waiting;
@@ -139,7 +139,7 @@ void RunMonitor::receive(const v1::RunStatus& status) {
   {
     const std::lock_guard lock(mutex_);
     received_ = Clock::now();
-    view_.phase = phaseOf(status.phase());
+    view_.phase = toPhase(status.phase());
     view_.problem.clear();
     readRecording(status, view_.recording);
     view_.absent.assign(status.robots_absent().begin(), status.robots_absent().end());

@@ -46,12 +46,12 @@ ColumnValue RecordedColumn::value(std::size_t row) const {
 void RecordingTable::add(const mrpt::obs::CObservation& observation, double time_s, const SensorInfo* sensor) {
   if (!series_.empty() && time_s != last_s_) ++step_;
   last_s_ = time_s;
-  const std::size_t index = seriesOf(observation);
+  const std::size_t index = findOrAddSeries(observation);
   const std::size_t row = series_[index].steps.size();
   ObservationRow values = ObservationRow::of(observation, sensor);
   for (std::size_t i = 0; i < values.names.size(); ++i) {
     const bool is_text = std::holds_alternative<std::string>(values.values[i]);
-    set(columnOf(index, i, values.names[i], is_text), row, std::move(values.values[i]));
+    set(findOrAddColumn(index, i, values.names[i], is_text), row, std::move(values.values[i]));
   }
   count(2);
   series_[index].steps.push_back(step_);
@@ -59,7 +59,7 @@ void RecordingTable::add(const mrpt::obs::CObservation& observation, double time
   group(index, row, time_s);
 }
 
-std::size_t RecordingTable::seriesOf(const mrpt::obs::CObservation& observation) {
+std::size_t RecordingTable::findOrAddSeries(const mrpt::obs::CObservation& observation) {
   const std::string label = observation.sensorLabel.empty() ? classOf(observation) : observation.sensorLabel;
   const auto [found, is_new] = series_by_label_.try_emplace(label, series_.size());
   if (is_new) {
@@ -71,7 +71,8 @@ std::size_t RecordingTable::seriesOf(const mrpt::obs::CObservation& observation)
 }
 
 /// @param guess index of the column unless the columns have changed
-RecordedColumn& RecordingTable::columnOf(std::size_t series, std::size_t guess, const std::string& name, bool is_text) {
+RecordedColumn& RecordingTable::findOrAddColumn(std::size_t series, std::size_t guess, const std::string& name,
+                                                bool is_text) {
   auto& columns = series_[series].columns;
   if (guess < columns.size() && columns[guess].name == name && (columns[guess].kind == Kind::text) == is_text) {
     return columns[guess];

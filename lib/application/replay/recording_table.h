@@ -62,8 +62,8 @@ class RecordingTable {
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
-  std::size_t seriesOf(const mrpt::obs::CObservation& observation);
-  RecordedColumn& columnOf(std::size_t series, std::size_t guess, const std::string& name, bool is_text);
+  std::size_t findOrAddSeries(const mrpt::obs::CObservation& observation);
+  RecordedColumn& findOrAddColumn(std::size_t series, std::size_t guess, const std::string& name, bool is_text);
   void set(RecordedColumn& column, std::size_t row, ColumnValue value);
   void group(std::size_t series, std::size_t row, double time_s);
   void count(std::uint64_t values);

@@ -33,7 +33,7 @@ std::string differ(const std::string& what, double recorded, double now) {
 
 /// Position of the first difference between two measurements of a sensor; nullopt if they are equal, and for kinds that
 /// differ between machines.
-std::optional<std::string> differenceOf(const Measurement& recorded_measurement, const Measurement& measurement) {
+std::optional<std::string> findDifference(const Measurement& recorded_measurement, const Measurement& measurement) {
   return std::visit(
       [&]<typename M>(const M& recorded) -> std::optional<std::string> {
         if constexpr (!kIsReproducible<M>) return std::nullopt;
@@ -52,8 +52,8 @@ std::optional<std::string> differenceOf(const Measurement& recorded_measurement,
       recorded_measurement);
 }
 
-std::optional<std::string> differenceOf(const RecordedRobot& recorded, const RobotInfo& robot, const Readings& now,
-                                        const mrpt::math::TPose2D& world_from_robot, bool receives_winner) {
+std::optional<std::string> findDifference(const RecordedRobot& recorded, const RobotInfo& robot, const Readings& now,
+                                          const mrpt::math::TPose2D& world_from_robot, bool receives_winner) {
   if (const auto& truth = recorded.world_from_robot) {
     // A heading is recorded as a matrix; its angle is equal up to rounding.
     constexpr double kRounding_rad = 1e-12;
@@ -64,7 +64,7 @@ std::optional<std::string> differenceOf(const RecordedRobot& recorded, const Rob
     }
   }
   for (std::size_t i = 0; i < now.measurements.size(); ++i) {
-    const auto difference = differenceOf(recorded.readings.measurements[i], now.measurements[i]);
+    const auto difference = findDifference(recorded.readings.measurements[i], now.measurements[i]);
     if (difference) return (*robot.sensors)[i].label + ", " + *difference;
   }
   if (recorded.command && recorded.readings.stalled != now.stalled) {
@@ -205,8 +205,8 @@ class RunAgain {
       if (recorded[i].is_missing) continue;
       const auto& robot = environment.fleet().robots[i].info;
       const auto difference =
-          differenceOf(recorded[i], robot, environment.state().readings[i], environment.state().world_from_robot[i],
-                       receivesWinner(recorded, environment.state().readings[i].winner));
+          findDifference(recorded[i], robot, environment.state().readings[i], environment.state().world_from_robot[i],
+                         receivesWinner(recorded, environment.state().readings[i].winner));
       if (difference) return "robot " + robot.name + ", " + *difference;
     }
     return std::nullopt;

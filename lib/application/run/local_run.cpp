@@ -50,7 +50,7 @@ std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world, const RunOption
 }
 
 /// When a robot breaks down [simulated s].
-double breakdownOf(std::size_t robot, const RunOptions& options) {
+double drawBreakdownTime(std::size_t robot, const RunOptions& options) {
   if (options.breakdown_mean_s <= 0) return std::numeric_limits<double>::infinity();
   Rng rng(options.environment.seed, RandomPurpose::breakdown, static_cast<std::uint32_t>(robot));
   return -options.breakdown_mean_s * portable::log(1 - rng.uniform());
@@ -170,7 +170,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     }
     local_robots_.push_back(
         std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robots[i].info.name)));
-    local_robots_.back()->breakdown_s = breakdownOf(i, options);
+    local_robots_.back()->breakdown_s = drawBreakdownTime(i, options);
   }
   if (readPictures(options.observers)) takePictures(std::vector<std::uint8_t>(environment_.robotCount(), 1));
   observers_.observe(environment_);

@@ -52,7 +52,7 @@ RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_
   checkObservers(choices);
   for (const auto& choice : choices) {
     const std::string name = TypeChoice::parse(choice).name;
-    const ObserverSetup setup = setupOf(name);
+    const ObserverSetup setup = makeSetup(name);
     const ParameterValues values = observers().parametersOf(choice);
     auto observer = guarded(choice, [&] { return observers().typeOf(choice).make(setup, values); });
     if (!observer) throw ObserverError("observer '" + choice + "': its type has made none");
@@ -67,7 +67,7 @@ RunObservers::RunObservers(Fork fork)
       now_s_(fork.original.now_s_),
       end_(fork.original.end_) {
   for (const auto& one : fork.original.observers_) {
-    auto copy = guarded(one.choice, [&] { return one.observer->clone(setupOf(one.name)); });
+    auto copy = guarded(one.choice, [&] { return one.observer->clone(makeSetup(one.name)); });
     if (!copy) {
       throw ConfigError("observer '" + one.choice + "': has no clone(), so that its run cannot be forked; add " +
                         "Observer::clone() to it, or run without it");
@@ -76,7 +76,7 @@ RunObservers::RunObservers(Fork fork)
   }
 }
 
-ObserverSetup RunObservers::setupOf(const std::string& name) {
+ObserverSetup RunObservers::makeSetup(const std::string& name) {
   if (!is_logging_) return {seed_, [](const std::string&) {}};
   return {seed_, [this, name](const std::string& line) { logInfo(name, "at " + fixed(now_s_, 3) + " s: " + line); }};
 }

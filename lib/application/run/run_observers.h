@@ -49,7 +49,7 @@ class RunObservers {
     std::unique_ptr<Observer> observer;
     bool supervises = false;
   };
-  ObserverSetup setupOf(const std::string& name);
+  ObserverSetup makeSetup(const std::string& name);
 
   std::uint64_t seed_;
   bool is_logging_;

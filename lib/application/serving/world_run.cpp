@@ -87,7 +87,7 @@ class WorldRun::OneRun {
         networked(networkedRobots(world.fleet, options, is_arcos)),
         run(std::move(world), onRequest(arguments.run), either(networked, is_arcos)),
         run_info(run.environment(), source, arguments.run.environment.seed, networked),
-        outputs(arguments, run.environment(), noteOf(source, run, arguments.run, either(networked, is_arcos))) {
+        outputs(arguments, run.environment(), makeNote(source, run, arguments.run, either(networked, is_arcos))) {
     if (options.arcos && options.arcos->is_factory) {
       run.environment().remove(arcosRobots());  // they enter the world with their programs
     }
@@ -153,8 +153,9 @@ class WorldRun::Prepared final : public PreparedRun {
   std::unique_ptr<ArcosServer> arcos;  ///< of makeReady(); null without ARCOS
 };
 
-WorldRun::WorldRun(WorldRunOptions options) : options_(std::move(options)), run_(load(sourceOf(options_.of_run), 1)) {
-  arcos_ = arcosServerOf(*run_);
+WorldRun::WorldRun(WorldRunOptions options)
+    : options_(std::move(options)), run_(load(readRunSource(options_.of_run), 1)) {
+  arcos_ = makeArcosServer(*run_);
   logArcosPorts();
 }
 
@@ -165,7 +166,7 @@ Environment& WorldRun::environment() { return run_->run.environment(); }
 std::shared_ptr<const RunInfo> WorldRun::runInfo() const { return {run_, &run_->run_info}; }
 
 /// Opens the ports for a run, and shares those that the present run has open. Null without ARCOS.
-std::unique_ptr<ArcosServer> WorldRun::arcosServerOf(OneRun& run) const {
+std::unique_ptr<ArcosServer> WorldRun::makeArcosServer(OneRun& run) const {
   if (!options_.arcos) return nullptr;
   return std::make_unique<ArcosServer>(*options_.arcos, run.run.environment(), run.arcosRobots(), arcos_.get());
 }
@@ -251,7 +252,7 @@ std::unique_ptr<PreparedRun> WorldRun::prepare(const WorldSource& source) const 
 
 void WorldRun::makeReady(PreparedRun& next) const {
   auto& prepared = static_cast<Prepared&>(next);
-  prepared.arcos = arcosServerOf(*prepared.run);
+  prepared.arcos = makeArcosServer(*prepared.run);
 }
 
 void WorldRun::replace(std::unique_ptr<PreparedRun> next) {

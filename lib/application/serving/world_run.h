@@ -60,7 +60,7 @@ class WorldRun final : public ServedRun {
   class OneRun;
   class Prepared;
   std::shared_ptr<OneRun> load(WorldSource source, int number) const;
-  std::unique_ptr<ArcosServer> arcosServerOf(OneRun& run) const;
+  std::unique_ptr<ArcosServer> makeArcosServer(OneRun& run) const;
   void logArcosPorts() const;
 
   WorldRunOptions options_;

@@ -130,7 +130,7 @@ Values bearingsOf(const CObservationBearingRange& bearings) {
   return values;
 }
 
-BeaconRanges beaconsOf(const CObservationBeaconRanges& beacons) {
+BeaconRanges toBeaconRanges(const CObservationBeaconRanges& beacons) {
   BeaconRanges ranges;
   for (std::size_t i = 0; i < std::min(beacons.sensedData.size(), kMaxLandmarks); ++i) {
     const float range_m = beacons.sensedData[i].sensedDistance;
@@ -261,7 +261,8 @@ mrpt::math::TPoint2D localMetres(const Geodetic& origin, const Geodetic& positio
 Measurement observedMeasurement(const CObservation& observation) {
   if (const auto* scan = dynamic_cast<const CObservationRotatingScan*>(&observation)) return rangesOf(*scan).echoes;
   if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) return bearingsOf(*bearings);
-  if (const auto* beacons = dynamic_cast<const CObservationBeaconRanges*>(&observation)) return beaconsOf(*beacons);
+  if (const auto* beacons = dynamic_cast<const CObservationBeaconRanges*>(&observation))
+    return toBeaconRanges(*beacons);
   if (isCloud(observation)) {
     return pointsOf(observation);
   }

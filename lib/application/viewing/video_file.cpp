@@ -42,7 +42,7 @@ constexpr VideoKind kVideoKinds[] = {
     {".mp4", "mp4", "libx264"}, {".webm", "webm", "libvpx-vp9"}, {".webp", "webp", "libwebp_anim"}};
 
 /// nullptr for a file that is no video
-const VideoKind* videoKindOf(const fs::path& file) {
+const VideoKind* findVideoKind(const fs::path& file) {
   const std::string ending = videoEndingOf(file);
   const auto* const found = std::find_if(std::begin(kVideoKinds), std::end(kVideoKinds),
                                          [&](const auto& kind) { return ending == kind.ending; });
@@ -77,13 +77,13 @@ AvPtr<T> owned(T* object) {
 
 }  // namespace
 
-bool isVideo(const fs::path& file) { return videoKindOf(file) != nullptr; }
+bool isVideo(const fs::path& file) { return findVideoKind(file) != nullptr; }
 
 /// FFmpeg's objects for one video.
 struct VideoFile::Encoder {
   Encoder(const fs::path& named, const fs::path& part, int width_px, int height_px, double fps) : named_file(named) {
     av_log_set_level(AV_LOG_QUIET);  // errors are reported here
-    const VideoKind& kind = *videoKindOf(named);
+    const VideoKind& kind = *findVideoKind(named);
     const AVCodec* const codec = avcodec_find_encoder_by_name(kind.encoder);
     if (!codec) {
       throw ConfigError(named.string() + ": FFmpeg's library libavcodec has no encoder " + kind.encoder +

@@ -42,7 +42,7 @@ class LeftOut {
 [[noreturn]] void throwInterrupted() { throw Interrupted("interrupted; nothing was written"); }
 
 /// End of a recording, or of its selected part.
-double endOf(double duration_s, const ViewTimes& times) {
+double computeEnd(double duration_s, const ViewTimes& times) {
   return std::min(times.to_s.value_or(duration_s), duration_s);
 }
 
@@ -58,7 +58,7 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   const auto start = Progress::Clock::now();
   VideoFile video(file, size.width_px, size.height_px, times.fps);
   if (const auto duration_s = source.duration()) {
-    const double end_s = endOf(*duration_s, times);
+    const double end_s = computeEnd(*duration_s, times);
     const double speed = times.speed.value_or(1);
     // Rounding errors of times, which are as large as 10⁹ s in recordings with a wrong clock.
     const double rounding_s = 1e-9 + 4 * std::numeric_limits<double>::epsilon() * end_s;
@@ -124,7 +124,7 @@ void checkOffscreenFile(const std::string& file) {
 void showPictureTime(ViewSource& source, const ViewTimes& times) {
   if (const auto duration_s = source.duration()) {
     source.pause(true);
-    source.seek(endOf(*duration_s, times));
+    source.seek(computeEnd(*duration_s, times));
   }
   source.advance(0);
 }

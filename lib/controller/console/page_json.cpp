@@ -66,20 +66,20 @@ const char* nameOf(RecordingView::State state) {
   return "";
 }
 
-Json jsonOf(const RecordingView& recording) {
+Json toJson(const RecordingView& recording) {
   return {{"state", nameOf(recording.state)},     {"file", recording.file},       {"may_change", recording.may_change},
           {"is_changing", recording.is_changing}, {"problem", recording.problem}, {"failure", recording.failure}};
 }
 
-Json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
+Json toJson(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
 
-std::string hexOf(std::uint32_t rgb) {
+std::string toHex(std::uint32_t rgb) {
   std::string text = "#";
   for (int shift = 20; shift >= 0; shift -= 4) text += "0123456789abcdef"[rgb >> shift & 15];
   return text;
 }
 
-std::string hexOf(const std::array<float, 3>& color) {
+std::string toHex(const std::array<float, 3>& color) {
   std::string text = "#";
   for (const float part : color) {
     const auto level = static_cast<unsigned>(std::lround(part * 255));
@@ -90,7 +90,7 @@ std::string hexOf(const std::array<float, 3>& color) {
 }
 
 template <typename Number>
-Json jsonOf(Number number) {
+Json toJson(Number number) {
   if constexpr (std::is_integral_v<Number>) return number;
   return fine(static_cast<double>(number));
 }
@@ -112,7 +112,7 @@ struct MeasurementJson {
     for (std::size_t i = 0; i < records.size(); ++i) list.push_back(kFieldCount<M> == 1 ? Json() : Json::object());
     forNumbers(measurement, [&](const auto& field, auto number, std::size_t index) {
       const std::string name = std::string(field.name) + (*field.unit.suffix ? "_" : "") + field.unit.suffix;
-      (kFieldCount<M> == 1 ? list[index] : list[index][name]) = jsonOf(number);
+      (kFieldCount<M> == 1 ? list[index] : list[index][name]) = toJson(number);
     });
     return kIsSingle<M> ? list[0] : list;
   }
@@ -124,7 +124,7 @@ bool isOnRequest(SensorKind kind) {
          kind == SensorKind::infrared;
 }
 
-Json jsonOf(const SensorInfo& sensor) {
+Json toJson(const SensorInfo& sensor) {
   Json beams = Json::array();
   for (const auto& beam : sensor.beams) {
     const auto& at = beam.robot_from_beam;
@@ -146,13 +146,13 @@ Json jsonOf(const SensorInfo& sensor) {
 
 const char* nameOf(v1::Activity activity) { return nameOf(*decode(activity)); }
 
-std::optional<double> drivenOf(const v1::RobotState& state) {
+std::optional<double> readDriven(const v1::RobotState& state) {
   return state.has_driven_m() ? std::optional(state.driven_m()) : std::nullopt;
 }
 
 Json numberOrNull(const std::optional<double>& number) { return number ? Json(fine(*number)) : Json(nullptr); }
 
-Json jsonOf(const v1::RobotState& state) {
+Json toJson(const v1::RobotState& state) {
   return {{"autonomous", state.autonomous()},       {"driver", state.driver()},
           {"is_yours", state.is_yours()},           {"speed_mps", fine(state.speed_mps())},
           {"turn_radps", fine(state.turn_radps())}, {"activity", nameOf(state.activity())},
@@ -188,7 +188,7 @@ std::string refusedJson(const std::string& text) { return textOf({{"type", "refu
 
 std::string robotJson(const RobotInfo& robot, double period_s) {
   Json sensors = Json::array();
-  for (const auto& sensor : *robot.sensors) sensors.push_back(jsonOf(sensor));
+  for (const auto& sensor : *robot.sensors) sensors.push_back(toJson(sensor));
   return textOf({{"type", "robot"},
                  {"name", robot.name},
                  {"model", robot.model},
@@ -220,10 +220,10 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"activity", nameOf(news.state.activity())},
                     {"is_stopping", news.state.is_stopping()},
                     {"why_stopped", news.state.why_stopped()},
-                    {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""}});
+                    {"color", news.info && news.info->color_rgb ? toHex(*news.info->color_rgb) : ""}});
     // Robots that have left keep the winner of their run, and those of the next run have none.
     if (news.is_up == is_any_up && !news.state.winner().empty()) winner = news.state.winner();
-    if (news.state.winner() == robot.name) winner_driven_m = drivenOf(news.state);
+    if (news.state.winner() == robot.name) winner_driven_m = readDriven(news.state);
     if (!news.world.empty()) world = news.world;
   }
   return textOf({{"type", "team"},
@@ -260,9 +260,9 @@ std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const 
                {"step", readings.time.step},
                {"time_s", rounded(readings.time.seconds(), 1e-3)},
                {"stalled", readings.stalled},
-               {"driven_m", numberOrNull(drivenOf(update.state))},
+               {"driven_m", numberOrNull(readDriven(update.state))},
                {"laser_pan_rad", fine(readings.laser_pan_rad)},
-               {"state", jsonOf(update.state)},
+               {"state", toJson(update.state)},
                {"measurements", measurements}};
   if (picture) message["picture_step"] = picture->step;
   return textOf(message);
@@ -284,7 +284,7 @@ std::string runJson(const RunView& run) {
                  {"absent", run.absent},
                  {"may_restart", run.may_restart},
                  {"is_restarting", run.is_restarting},
-                 {"recording", jsonOf(run.recording)}});
+                 {"recording", toJson(run.recording)}});
 }
 
 std::string pulseJson() { return textOf({{"type", "pulse"}}); }
@@ -294,16 +294,16 @@ std::string mapJson(const MapView& map) {
   const MapWorld& world = *map.world;
   Json objects = Json::array();
   for (const auto& object : world.objects) {
-    objects.push_back({{"at", jsonOf(object.world_from_object)},
+    objects.push_back({{"at", toJson(object.world_from_object)},
                        {"length_m", object.length_m},
                        {"width_m", object.width_m},
                        {"radius_m", object.radius_m},
-                       {"color", hexOf(object.color)},
+                       {"color", toHex(object.color)},
                        {"hot", object.is_hot}});
   }
   Json robots = Json::array();
   for (const auto& robot : world.robots) {
-    robots.push_back({{"name", robot.name}, {"radius_m", robot.radius_m}, {"color", hexOf(robot.color)}});
+    robots.push_back({{"name", robot.name}, {"radius_m", robot.radius_m}, {"color", toHex(robot.color)}});
   }
   return textOf({{"type", "map"},
                  {"name", world.name},
@@ -316,7 +316,7 @@ std::string mapJson(const MapView& map) {
 std::string posesJson(const MapView& map) {
   Json robots = Json::array();
   for (std::size_t i = 0; i < map.world_from_robot.size(); ++i) {
-    robots.push_back({{"at", jsonOf(map.world_from_robot[i])}, {"activity", nameOf(map.activity[i])}});
+    robots.push_back({{"at", toJson(map.world_from_robot[i])}, {"activity", nameOf(map.activity[i])}});
   }
   return textOf({{"type", "poses"}, {"step", map.step}, {"robots", robots}});
 }

@@ -51,7 +51,7 @@ int selectHttp11(SSL*, const unsigned char** out, unsigned char* out_size, const
   return found == OPENSSL_NPN_NEGOTIATED ? SSL_TLSEXT_ERR_OK : SSL_TLSEXT_ERR_NOACK;
 }
 
-std::unique_ptr<asio::ssl::context> contextOf(const TlsIdentity& identity) {
+std::unique_ptr<asio::ssl::context> makeContext(const TlsIdentity& identity) {
   auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
   SSL_CTX* native = context->native_handle();
   SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
@@ -77,7 +77,7 @@ struct WebServer::Impl {
   Impl(const Options& the_options, WebPageEvents the_events)
       : options(the_options),
         events(std::move(the_events)),
-        tls(options.tls ? contextOf(*options.tls) : nullptr),
+        tls(options.tls ? makeContext(*options.tls) : nullptr),
         acceptor({std::make_shared<const ConnectionListener>(options.listen, "--listen")},
                  {.pending = "connections without a WebSocket",
                   .max_pending = kMaxRequests,

@@ -31,7 +31,7 @@ bool read(const char*& at, const char* end, char stop, Number& number, int base 
 }
 
 /// What a robot knows of a tile of its map.
-MapTile tileOf(const MazeMap& map, const Cell& tile) {
+MapTile makeTile(const MazeMap& map, const Cell& tile) {
   MapTile found{tile};
   const Cell first{MapTile::kSide * tile.x, MapTile::kSide * tile.y};
   const int rows = static_cast<int>(map.size()) / map.columns();
@@ -103,7 +103,7 @@ std::optional<MapMessage> MapSharing::next(const MazeMap& map) {
     const Cell at{low.x + static_cast<int>(next_tile_ % columns), low.y + static_cast<int>(next_tile_ / columns)};
     ++next_tile_;
     if (!known_->contains(at)) continue;
-    MapTile tile = tileOf(map, at);
+    MapTile tile = makeTile(map, at);
     Known& known = (*known_)[at];
     tile.searched &= ~known.searched;
     tile.occupied &= ~known.occupied;

@@ -50,7 +50,7 @@ struct RemotePort::Impl final : public v1::RemoteControl::WithRawMethod_Control<
   void handle(Stream& stream, const v1::ControlRequest& order);
   void releaseRobot(Stream& stream);
   void sendState(const DrivenRobot& robot);
-  RobotsWelcome welcomeOf(const DrivenRobot& robot) const;
+  RobotsWelcome makeWelcome(const DrivenRobot& robot) const;
   void publish(const v1::StepReadings* received);  ///< without the mutex
   void endRun();                                   ///< without the mutex
 
@@ -97,7 +97,7 @@ class RemotePort::Impl::Stream final : public StreamSession<v1::ControlRequest, 
   /// Selects the robot at the first INIT; it cannot change afterwards.
   void selectRobot(DrivenRobot& selected) {
     robot = &selected;
-    outbox_.emplace(selected, port_.welcomeOf(selected));
+    outbox_.emplace(selected, port_.makeWelcome(selected));
     establish();
     port_.streams.push_back(std::static_pointer_cast<Stream>(shared_from_this()));
   }
@@ -261,7 +261,7 @@ void RemotePort::Impl::sendState(const DrivenRobot& robot) {
   }
 }
 
-RobotsWelcome RemotePort::Impl::welcomeOf(const DrivenRobot& robot) const {
+RobotsWelcome RemotePort::Impl::makeWelcome(const DrivenRobot& robot) const {
   RobotsWelcome welcome;
   welcome.world = run.world;
   welcome.seed = run.seed;

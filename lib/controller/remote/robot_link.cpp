@@ -18,7 +18,8 @@ namespace {
 constexpr const char* kRunIsOver = "the run is over";
 
 /// Why a call has ended, and how to fix it.
-std::string problemOf(const grpc::Status& status, const ConnectOptions& connect_options, const std::string& robot) {
+std::string describeProblem(const grpc::Status& status, const ConnectOptions& connect_options,
+                            const std::string& robot) {
   if (status.ok()) return kRunIsOver;
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) {
     return connect_options.address + " is not the remote port of a robot; correct it in the robot list";
@@ -130,7 +131,7 @@ void RobotLink::Impl::makeCalls() {
     lock.unlock();
     std::string problem;
     const grpc::Status status = call(problem);
-    if (problem.empty()) problem = problemOf(status, connect_options, robot);
+    if (problem.empty()) problem = describeProblem(status, connect_options, robot);
     lock.lock();
     is_calling = news.is_up = false;
     // After the end of its run nothing answers until the next one.

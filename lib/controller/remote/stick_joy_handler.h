@@ -9,7 +9,7 @@
 namespace robosim {
 
 /// Converts the state of a joystick, whose y points towards the person, to that for actions.
-inline JoyState joyStateOf(const StickState& stick) { return {.x = stick.x, .y = -stick.y, .buttons = stick.buttons}; }
+inline JoyState toJoyState(const StickState& stick) { return {.x = stick.x, .y = -stick.y, .buttons = stick.buttons}; }
 
 /// A joystick for ActionJoydrive and RatioInputJoydrive.
 class StickJoyHandler : public JoyHandler {
@@ -18,7 +18,7 @@ class StickJoyHandler : public JoyHandler {
   explicit StickJoyHandler(std::unique_ptr<Joystick> stick) : stick_(std::move(stick)) {}
   std::optional<JoyState> read() override {
     const auto state = stick_->read();
-    return state ? std::optional(joyStateOf(*state)) : std::nullopt;
+    return state ? std::optional(toJoyState(*state)) : std::nullopt;
   }
 
  private:

@@ -10,7 +10,7 @@ struct AbsentJoystick : Joystick {
 };
 
 TEST(StickJoyHandler, PointsAheadWhereTheStickPointsAwayFromThePerson) {
-  const JoyState state = joyStateOf({.x = 0.5, .y = -0.25, .buttons = {true, false}});
+  const JoyState state = toJoyState({.x = 0.5, .y = -0.25, .buttons = {true, false}});
   EXPECT_EQ(state.x, 0.5);
   EXPECT_EQ(state.y, 0.25);
   EXPECT_EQ(state.buttons, (std::vector<bool>{true, false}));

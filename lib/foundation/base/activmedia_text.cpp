@@ -14,7 +14,7 @@ namespace {
 /// Maximum coordinate: 1,000 km from the origin, so that all cells of a millimetre can be counted with 32 bits.
 constexpr double kFarthest_mm = 1e9;
 
-std::vector<std::string> wordsOf(std::string_view line) {
+std::vector<std::string> splitWords(std::string_view line) {
   std::vector<std::string> words;
   std::size_t at = 0;
   while ((at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
@@ -69,7 +69,7 @@ bool ActivmediaText::next() {
     if (line_.find_first_not_of(" \t") == std::string_view::npos) continue;
     // Other scanners have sections of their own: <name>_LINES.
     const std::string_view word = line_.substr(0, line_.find_last_not_of(" \t") + 1);
-    words_ = wordsOf(line_);
+    words_ = splitWords(line_);
     if (word.ends_with("LINES")) {
       current_ = Section::lines;
     } else if (word.ends_with("DATA")) {

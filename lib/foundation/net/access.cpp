@@ -92,7 +92,7 @@ Access::Authenticated Access::authenticate(std::optional<std::string_view> token
                         "ROBOSIM_TOKEN"),
             {}};
   }
-  const TokenHash hash = hashOf(*token);
+  const TokenHash hash = computeHash(*token);
   const std::string address = addressOf(peer);
   const std::lock_guard lock(state_->mutex);
   const Time now = state_->options.now();

@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kPollInterval(1);
 constexpr int kMaxEventsPerPoll = 32;
 constexpr std::chrono::seconds kShutdownGracePeriod(1);
 
-gpr_timespec timespecOf(CompletionQueueServer::Clock::time_point until) {
+gpr_timespec toTimespec(CompletionQueueServer::Clock::time_point until) {
   const std::chrono::nanoseconds wait = until - CompletionQueueServer::Clock::now();
   return gpr_time_add(gpr_now(GPR_CLOCK_MONOTONIC), gpr_time_from_nanos(wait.count(), GPR_TIMESPAN));
 }
@@ -121,7 +121,7 @@ void CompletionQueueServer::waitUntil(Clock::time_point until, const std::functi
     const auto now = Clock::now();
     if (has_waited && now >= until) return;
     handleSecondaryEvents();
-    waitForEvent(timespecOf(endpoints_.size() == 1 ? until : std::min(until, now + kSecondaryPollInterval)));
+    waitForEvent(toTimespec(endpoints_.size() == 1 ? until : std::min(until, now + kSecondaryPollInterval)));
     has_waited = true;
   }
   if (!has_waited) pollAll();
@@ -152,7 +152,7 @@ void CompletionQueueServer::close(Clock::duration at_most) {
   const auto until = Clock::now() + at_most;
   while (*calls_ > 0 && Clock::now() < until) {
     handleSecondaryEvents();
-    waitForEvent(timespecOf(Clock::now() + kSecondaryPollInterval));
+    waitForEvent(toTimespec(Clock::now() + kSecondaryPollInterval));
   }
   if (*calls_ > 0) {
     logError("net", std::to_string(*calls_) + " calls have not ended; the ports are closed without them. This is a " +

@@ -38,7 +38,7 @@ void setOption(int socket, int level, int option) {
   setsockopt(socket, level, option, &on, sizeof on);
 }
 
-std::uint16_t portOf(int socket) {
+std::uint16_t readPort(int socket) {
   sockaddr_storage own{};
   socklen_t size = sizeof own;
   getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size);
@@ -66,7 +66,7 @@ int listenAt(const addrinfo& at, int port) {
   return -1;
 }
 
-std::string causeOf(int error) {
+std::string describeCause(int error) {
   if (error == EADDRINUSE) return "is another program using the port?";
   if (error == EACCES) return "ports below 1024 are reserved.";
   return std::string(std::strerror(error)) + "; the address must be one of this machine.";
@@ -102,15 +102,15 @@ ConnectionListener::ConnectionListener(const std::string& address, const std::st
       continue;
     }
     listeners_.push_back(listener);
-    port_ = portOf(listener);
+    port_ = readPort(listener);
   }
   if (!listeners_.empty() && error != EADDRINUSE) {
     address_ = withPort(address, port_);
     return;
   }
   for (const int listener : listeners_) close(listener);
-  throw std::runtime_error("cannot listen on " + address + ": " + causeOf(error) + " Name another with " + option +
-                           ", or :0 for any");
+  throw std::runtime_error("cannot listen on " + address + ": " + describeCause(error) + " Name another with " +
+                           option + ", or :0 for any");
 }
 
 ConnectionListener::~ConnectionListener() {

@@ -33,7 +33,7 @@ struct Traffic {
 };
 
 /// @return nullopt for a descriptor that has been closed
-std::optional<Traffic> trafficOf(int connection) {
+std::optional<Traffic> readTraffic(int connection) {
   tcp_info info{};
   socklen_t size = sizeof info;
   if (getsockopt(connection, IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return std::nullopt;
@@ -144,7 +144,7 @@ class Guard {
     const auto it = find(peer);
     if (it == connections_.end() || it->second.exemptions == 0 || --it->second.exemptions > 0) return;
     it->second.exempt_until = Clock::now() + kExemptionLinger;
-    it->second.counted = trafficOf(it->first).value_or(it->second.counted);  // all before was exempt
+    it->second.counted = readTraffic(it->first).value_or(it->second.counted);  // all before was exempt
   }
 
  private:
@@ -241,7 +241,7 @@ class Guard {
     has_bytes_ = true;
     removeClosed();
     for (auto& [descriptor, connection] : connections_)
-      connection.bytes = trafficOf(descriptor).value_or(Traffic{}).received;
+      connection.bytes = readTraffic(descriptor).value_or(Traffic{}).received;
   }
 
   /// A client whose bytes are answered with as many, such as PING, may flood in waits that end soon.
@@ -249,7 +249,7 @@ class Guard {
     for (auto it = connections_.begin(); it != connections_.end();) {
       const auto here = it++;
       if (here->second.is_authorised || here->second.isExempt()) continue;
-      const auto now = trafficOf(here->first);
+      const auto now = readTraffic(here->first);
       if (!now || now->received <= kMinBytes || !isOpen(here->first, here->second.peer)) continue;
       disconnectFlood(here, kFrames);
       return;  // the alarm disconnects the others
@@ -261,7 +261,7 @@ class Guard {
     for (auto it = connections_.begin(); it != connections_.end();) {
       const auto here = it++;
       Connection& connection = here->second;
-      const auto now = trafficOf(here->first);
+      const auto now = readTraffic(here->first);
       if (!now) continue;
       connection.unanswered += increase(connection.counted.received, now->received);
       connection.unanswered -= std::min(connection.unanswered, increase(connection.counted.sent, now->sent));
@@ -278,7 +278,7 @@ class Guard {
     auto busiest = connections_.end();
     std::uint64_t max_sent = 0;
     for (auto it = connections_.begin(); it != connections_.end(); ++it) {
-      const auto now = trafficOf(it->first);
+      const auto now = readTraffic(it->first);
       const std::uint64_t sent = now ? increase(it->second.bytes, now->received) : 0;
       if (sent <= max_sent || sent < (it->second.isExempt() ? kMaxExemptBytes : kMinBytes)) continue;
       busiest = it;

@@ -36,7 +36,7 @@ std::chrono::milliseconds GuessLimiter::wait(const std::string& address, const T
 }
 
 void GuessLimiter::noteWrong(const std::string& address, const TokenHash& token, Time now) {
-  Entry& entry = entryOf(address, now);
+  Entry& entry = refreshEntry(address, now);
   if (now - entry.last_guess > kMemory) entry.guesses = 0;
   if (entry.wrong.contains(token)) return;
   entry.wrong.add(token);
@@ -48,10 +48,10 @@ void GuessLimiter::noteWrong(const std::string& address, const TokenHash& token,
 }
 
 void GuessLimiter::noteRight(const std::string& address, const TokenHash& token, Time now) {
-  entryOf(address, now).right.add(token);
+  refreshEntry(address, now).right.add(token);
 }
 
-GuessLimiter::Entry& GuessLimiter::entryOf(const std::string& address, Time now) {
+GuessLimiter::Entry& GuessLimiter::refreshEntry(const std::string& address, Time now) {
   const auto found = entries_.find(address);
   if (found == entries_.end() && entries_.size() >= kMaxAddresses) {
     entries_.erase(std::min_element(entries_.begin(), entries_.end(),

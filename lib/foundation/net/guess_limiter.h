@@ -44,7 +44,7 @@ class GuessLimiter {
     int guesses = 0;
     Time last_guess, blocked_until, last;
   };
-  Entry& entryOf(const std::string& address, Time now);
+  Entry& refreshEntry(const std::string& address, Time now);
 
   std::map<std::string, Entry> entries_;  ///< by address
 };

@@ -13,10 +13,10 @@ struct GuessLimiterTest : testing::Test {
   int guesses = 0;
 
   void guess(const std::string& address = "192.0.2.7") {
-    limiter.noteWrong(address, hashOf("wrong" + std::to_string(++guesses)), now);
+    limiter.noteWrong(address, computeHash("wrong" + std::to_string(++guesses)), now);
   }
   auto waitOf(const std::string& token, const std::string& address = "192.0.2.7") const {
-    return limiter.wait(address, hashOf(token), now);
+    return limiter.wait(address, computeHash(token), now);
   }
 };
 
@@ -35,14 +35,14 @@ TEST_F(GuessLimiterTest, DoublesTheBlockingTimeWithEachWrongTokenUpToFiveSeconds
 }
 
 TEST_F(GuessLimiterTest, ExemptsTokensThatWereAcceptedFromTheAddressBefore) {
-  limiter.noteRight("192.0.2.7", hashOf("right"), now);
+  limiter.noteRight("192.0.2.7", computeHash("right"), now);
   for (int i = 0; i < 20; ++i) guess();
   EXPECT_EQ(waitOf("right"), 0ms);
   EXPECT_EQ(waitOf("other"), 5000ms);
 }
 
 TEST_F(GuessLimiterTest, CountsARepeatedWrongTokenOnce) {
-  for (int i = 0; i < 100; ++i) limiter.noteWrong("192.0.2.7", hashOf("withdrawn"), now);
+  for (int i = 0; i < 100; ++i) limiter.noteWrong("192.0.2.7", computeHash("withdrawn"), now);
   EXPECT_EQ(waitOf("next"), 0ms);
 }
 

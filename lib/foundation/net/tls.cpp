@@ -52,7 +52,7 @@ class SigpipeBlock {
   sigset_t sigpipe_{}, before_{};
 };
 
-Owned<BIO> bioOf(const std::string& text) {
+Owned<BIO> makeBio(const std::string& text) {
   return Owned<BIO>(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }
 
@@ -134,7 +134,7 @@ void trust(SSL_CTX* context, const std::string& trusted_pem) {
     SSL_CTX_set_default_verify_paths(context);
     return;
   }
-  const Owned<BIO> pem = bioOf(trusted_pem);
+  const Owned<BIO> pem = makeBio(trusted_pem);
   while (const Owned<X509> certificate = nextCertificate(pem.get())) {
     X509_STORE_add_cert(SSL_CTX_get_cert_store(context), certificate.get());
   }
@@ -157,12 +157,12 @@ Owned<BIO> connectTcp(const std::string& address, Clock::time_point until) {
 TlsIdentity TlsIdentity::read(const std::filesystem::path& certificate_file, const std::filesystem::path& key_file) {
   TlsIdentity identity{readSmallFile(certificate_file, "the certificate"),
                        readPrivateFile(key_file, "the private key")};
-  const Owned<BIO> chain = bioOf(identity.certificate_pem);
+  const Owned<BIO> chain = makeBio(identity.certificate_pem);
   const Owned<X509> certificate = nextCertificate(chain.get());
   if (!certificate) {
     throw ConfigError(certificate_file.string() + ": has no certificate; it begins with -----BEGIN CERTIFICATE-----");
   }
-  const Owned<EVP_PKEY> key(PEM_read_bio_PrivateKey(bioOf(identity.key_pem).get(), nullptr, noPassphrase, nullptr));
+  const Owned<EVP_PKEY> key(PEM_read_bio_PrivateKey(makeBio(identity.key_pem).get(), nullptr, noPassphrase, nullptr));
   ERR_clear_error();
   if (!key) {
     throw ConfigError(key_file.string() +
@@ -212,7 +212,7 @@ TlsServer::TlsServer(const TlsIdentity& identity) {
     return found == OPENSSL_NPN_NEGOTIATED ? SSL_TLSEXT_ERR_OK : SSL_TLSEXT_ERR_ALERT_FATAL;
   };
   SSL_CTX_set_alpn_select_cb(context.get(), selectHttp2, nullptr);
-  const Owned<BIO> chain = bioOf(identity.certificate_pem), key_pem = bioOf(identity.key_pem);
+  const Owned<BIO> chain = makeBio(identity.certificate_pem), key_pem = makeBio(identity.key_pem);
   const Owned<EVP_PKEY> key(PEM_read_bio_PrivateKey(key_pem.get(), nullptr, noPassphrase, nullptr));
   const Owned<X509> leaf = nextCertificate(chain.get());
   if (!key || !leaf || SSL_CTX_use_certificate(context.get(), leaf.get()) != 1 ||
@@ -261,7 +261,7 @@ void TlsServer::Connection::close() {
 
 std::string readTrustedCertificates(const std::filesystem::path& file) {
   std::string pem = readSmallFile(file, "the trusted certificate");
-  if (!nextCertificate(bioOf(pem).get())) {
+  if (!nextCertificate(makeBio(pem).get())) {
     throw ConfigError(file.string() + ": has no certificate; it begins with -----BEGIN CERTIFICATE-----");
   }
   return pem;

@@ -43,7 +43,7 @@ bool readNumber(std::string_view& text, std::size_t digits, std::string_view end
 }
 
 /// Expiry of a token with `expires=DATE`; nullopt for an invalid date.
-std::optional<std::chrono::sys_seconds> expiryOf(std::string_view text) {
+std::optional<std::chrono::sys_seconds> readExpiry(std::string_view text) {
   using namespace std::chrono;
   int y = 0, m = 0, d = 0, hour = 0, minute = 0, second = 0;
   const bool is_day = text.size() == 10;
@@ -80,7 +80,7 @@ void readRest(std::istream& words, TokenHolder& holder, const std::function<void
         report("name= must have 1 to " + std::to_string(kMaxNameLength) + " of the characters A-Z a-z 0-9 . _ -");
       }
     } else if (attribute == "expires") {
-      holder.expires = expiryOf(std::string_view(word).substr(equals + 1));
+      holder.expires = readExpiry(std::string_view(word).substr(equals + 1));
       if (!holder.expires) {
         report("expires= must be a date, 2027-01-31 (the last valid day) or 2027-01-31T18:00:00Z, in UTC");
       }
@@ -94,7 +94,7 @@ void readRest(std::istream& words, TokenHolder& holder, const std::function<void
 
 }  // namespace
 
-TokenHash hashOf(std::string_view token) {
+TokenHash computeHash(std::string_view token) {
   TokenHash hash;
   SHA256(reinterpret_cast<const unsigned char*>(token.data()), token.size(), hash.data());
   return hash;
@@ -112,7 +112,7 @@ TokenTable TokenTable::parse(const std::string& text, const std::string& file) {
     std::string token, role;
     if (!(words >> token) || token.front() == '#') continue;
     words >> role;
-    TokenHolder holder{hashOf(token), Role::viewer, {}, "line-" + std::to_string(number), {}};
+    TokenHolder holder{computeHash(token), Role::viewer, {}, "line-" + std::to_string(number), {}};
     readRest(words, holder, report);
     if (token.size() < kMinTokenLength || !isPrintable(token)) {
       report("the token must have 16 or more characters of ASCII; 'openssl rand -hex 16' makes one");

@@ -12,7 +12,7 @@ namespace robosim {
 
 /// SHA-256 of a token: all have the same length, and no token is kept in memory.
 using TokenHash = std::array<unsigned char, 32>;
-TokenHash hashOf(std::string_view token);
+TokenHash computeHash(std::string_view token);
 
 /// One line of a token file.
 struct TokenHolder {

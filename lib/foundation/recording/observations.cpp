@@ -24,7 +24,7 @@ using mrpt::poses::CPose3D;
 
 /// A measurement of random numbers, which do not occur elsewhere in an observation. They are less than range_max_m, so
 /// that a range is not recorded as no echo.
-Measurement probeOf(const SensorInfo& sensor, Rng& rng) {
+Measurement makeProbe(const SensorInfo& sensor, Rng& rng) {
   Measurement probe = blankMeasurement(sensor);
   std::visit(
       [&](auto& kind) {
@@ -147,7 +147,7 @@ void RobotObservations::makeTemplates() {
     Rng rng(static_cast<std::uint64_t>(which));
     Readings readings;
     readings.time.step = 1 + rng.below(1'000'000);
-    for (const auto& sensor : *sensors_) readings.measurements.push_back(probeOf(sensor, rng));
+    for (const auto& sensor : *sensors_) readings.measurements.push_back(makeProbe(sensor, rng));
     of(readings, TPose2D(rng.uniform(), rng.uniform(), rng.uniform()));
   };
   for (std::size_t i = 0; i < observations_.size(); ++i) {

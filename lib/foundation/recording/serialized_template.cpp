@@ -13,7 +13,7 @@ std::vector<std::uint8_t> serialised(const mrpt::obs::CObservation& observation)
 }
 
 /// Position of a number in the bytes; nullopt when it does not occur exactly once.
-std::optional<std::size_t> positionOf(SerializedTemplate::Number number, const std::vector<std::uint8_t>& bytes) {
+std::optional<std::size_t> findPosition(SerializedTemplate::Number number, const std::vector<std::uint8_t>& bytes) {
   const auto same = [](std::uint8_t a, std::byte b) { return a == std::to_integer<std::uint8_t>(b); };
   const auto at = std::search(bytes.begin(), bytes.end(), number.begin(), number.end(), same);
   if (at == bytes.end() || std::search(at + 1, bytes.end(), number.begin(), number.end(), same) != bytes.end()) {
@@ -31,7 +31,7 @@ std::optional<SerializedTemplate> SerializedTemplate::of(const mrpt::obs::CObser
   probe(0);
   result.bytes_ = serialised(observation);
   for (const Number number : changing) {
-    const auto position = positionOf(number, result.bytes_);
+    const auto position = findPosition(number, result.bytes_);
     if (!position) return std::nullopt;
     result.positions_.push_back(*position);
   }

@@ -12,7 +12,7 @@ namespace {
 
 std::string titleOf(const LoadedWorld& world) { return "world '" + world.world.name + "'"; }
 
-int heatSlotOf(const RobotInfo& robot) {
+int findHeatSlot(const RobotInfo& robot) {
   for (std::size_t slot = 0; slot < robot.sensors->size(); ++slot) {
     if ((*robot.sensors)[slot].kind == SensorKind::heat) return static_cast<int>(slot);
   }
@@ -52,7 +52,7 @@ std::shared_ptr<const BatchWorld> makeBatchWorld(LoadedWorld loaded, const Batch
   auto world = std::make_shared<BatchWorld>();
   for (std::size_t i = 0; i < agents.count(); ++i) {
     const FleetRobot& robot = loaded.fleet.robots[i];
-    world->heat_slots.push_back(heatSlotOf(robot.info));
+    world->heat_slots.push_back(findHeatSlot(robot.info));
     if (ObservationLayout::ofPresent(robot.info, options.observations).isCompatible(agents.layouts[i])) continue;
     throw ConfigError(title + ": robot '" + robot.info.name + "' observes other numbers than agent " +
                       std::to_string(i + 1) +

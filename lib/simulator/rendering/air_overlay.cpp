@@ -235,8 +235,8 @@ void drawDots(DrawingSurface& surface, const AirPicture& air, const AirView& vie
 }
 
 /// Flags of the robots whose readings are drawn: with many robots only of those in `shown`.
-std::vector<std::uint8_t> shownOf(const std::vector<std::uint8_t>& shown, std::size_t robots,
-                                  const DetailLevel& level) {
+std::vector<std::uint8_t> selectShown(const std::vector<std::uint8_t>& shown, std::size_t robots,
+                                      const DetailLevel& level) {
   return shown.empty() && level.is_crowded ? std::vector<std::uint8_t>(robots, 0) : shown;
 }
 
@@ -250,7 +250,8 @@ void drawAirOverlay(const AirPicture& air, const RunSnapshot& snapshot, const Fl
   DrawingSurface surface(air.picture);
   if (layers.paths && level.has_paths)
     drawAirPaths(surface, air, view, snapshot, colors, paths, layers.paths_from_s, level);
-  if (layers.sensors) drawRanges(surface, air, view, snapshot, fleet, shownOf(shown, snapshot.robots.size(), level));
+  if (layers.sensors)
+    drawRanges(surface, air, view, snapshot, fleet, selectShown(shown, snapshot.robots.size(), level));
   if (level.is_crowded) {
     drawDots(surface, air, view, snapshot, fleet, colors, level);
   } else if (layers.names) {

@@ -10,7 +10,7 @@ namespace robosim {
 namespace {
 
 /// Mask of the pixels that have the colour. `hsv` holds hue (0 … 255 for a full turn), saturation and value.
-cv::Mat maskOf(const cv::Mat& hsv, const TargetColor& color) {
+cv::Mat computeMask(const cv::Mat& hsv, const TargetColor& color) {
   const double unit = 256 / (2 * M_PI);
   const int low = static_cast<int>(std::lround((color.hue_rad - color.within_rad) * unit));
   const int high = static_cast<int>(std::lround((color.hue_rad + color.within_rad) * unit));
@@ -55,7 +55,7 @@ std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetCol
   cv::Mat hsv;
   if (!picture.empty()) cv::cvtColor(picture, hsv, cv::COLOR_BGR2HSV_FULL);
   for (std::size_t i = 0; i < colors.size(); ++i) {
-    if (!hsv.empty()) blobs[i] = largestIn(maskOf(hsv, colors[i]), pixels_min);
+    if (!hsv.empty()) blobs[i] = largestIn(computeMask(hsv, colors[i]), pixels_min);
     blobs[i].color = colors[i].name;
   }
   return blobs;

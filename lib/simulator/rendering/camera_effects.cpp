@@ -10,7 +10,7 @@ namespace robosim {
 namespace {
 
 /// Where a pinhole shows what the camera shows at the centre of a pixel, from the optical axis, at a distance of 1.
-LensDistortion::Point idealOf(const CameraInfo& info, double x_px, double y_px) {
+LensDistortion::Point toIdealPoint(const CameraInfo& info, double x_px, double y_px) {
   const double focal_px = info.focalLength();
   const LensDistortion::Point shown{(x_px + 0.5 - info.width_px / 2.0) / focal_px,
                                     (y_px + 0.5 - info.height_px / 2.0) / focal_px};
@@ -28,7 +28,7 @@ cv::Mat warped(const cv::Mat& pinhole, const CameraView& camera, double turn_rad
     // The robot has turned by this since the row was read.
     const double since_rad = turn_radps * camera.errors.rolling_shutter_s * (1 - (y + 0.5) / height);
     for (int x = 0; x < width; ++x) {
-      auto ideal = idealOf(info, x, y);
+      auto ideal = toIdealPoint(info, x, y);
       if (since_rad != 0) ideal.x = std::tan(std::atan(ideal.x) + since_rad);
       from_x(y, x) = static_cast<float>(ideal.x * focal_px + pinhole.cols / 2.0 - 0.5);
       from_y(y, x) = static_cast<float>(ideal.y * focal_px + pinhole.rows / 2.0 - 0.5);
@@ -46,10 +46,10 @@ CameraInfo pinholeFor(const CameraView& camera) {
   if (info.distortion.isNone() && camera.errors.rolling_shutter_s == 0) return info;
   double right = 0, down = 0;
   for (std::uint32_t x = 0; x < info.width_px; ++x) {
-    for (const double y : {0.0, info.height_px - 1.0}) down = std::max(down, std::abs(idealOf(info, x, y).y));
+    for (const double y : {0.0, info.height_px - 1.0}) down = std::max(down, std::abs(toIdealPoint(info, x, y).y));
   }
   for (std::uint32_t y = 0; y < info.height_px; ++y) {
-    for (const double x : {0.0, info.width_px - 1.0}) right = std::max(right, std::abs(idealOf(info, x, y).x));
+    for (const double x : {0.0, info.width_px - 1.0}) right = std::max(right, std::abs(toIdealPoint(info, x, y).x));
   }
   // A turn of up to half a radian during the read-out.
   if (camera.errors.rolling_shutter_s > 0) right = std::tan(std::min(1.4, std::atan(right) + 0.5));

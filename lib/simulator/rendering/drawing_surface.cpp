@@ -61,12 +61,12 @@ DrawingSurface::DrawingSurface(const GroundView& view, double scale, Edges edges
       edges_(edges),
       image_(cairo_image_surface_create(format, static_cast<int>(std::lround(view.width() * scale)),
                                         static_cast<int>(std::lround(view.height() * scale)))),
-      image_context_(contextOf(*image_, scale, std::nullopt)) {}
+      image_context_(makeContext(*image_, scale, std::nullopt)) {}
 
 DrawingSurface::DrawingSurface(const GroundView& view, const std::optional<Color>& background, double scale,
                                Edges edges)
     : DrawingSurface(view, scale, edges, background ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32) {
-  if (background) image_context_ = contextOf(*image_, scale, background);
+  if (background) image_context_ = makeContext(*image_, scale, background);
 }
 
 DrawingSurface::DrawingSurface(const cv::Mat& picture)
@@ -89,8 +89,8 @@ void DrawingSurface::check(cairo_status_t status) {
   }
 }
 
-DrawingSurface::Owned<cairo_t> DrawingSurface::contextOf(cairo_surface_t& surface, double scale,
-                                                         const std::optional<Color>& background) const {
+DrawingSurface::Owned<cairo_t> DrawingSurface::makeContext(cairo_surface_t& surface, double scale,
+                                                           const std::optional<Color>& background) const {
   check(cairo_surface_status(&surface));
   Owned<cairo_t> context(cairo_create(&surface));
   cairo_scale(context.get(), scale, scale);
@@ -182,7 +182,7 @@ cv::Mat DrawingSurface::coverage(std::span<const std::vector<TPoint2D>> polygons
   const cv::Mat covered = cv::Mat::zeros(image.rows, cairo_format_stride_for_width(CAIRO_FORMAT_A8, image.cols), CV_8U);
   const Owned<cairo_surface_t> mask(
       cairo_image_surface_create_for_data(covered.data, CAIRO_FORMAT_A8, image.cols, image.rows, covered.cols));
-  const auto context = contextOf(*mask, scale_, std::nullopt);
+  const auto context = makeContext(*mask, scale_, std::nullopt);
   addUnion(*context, polygons);
   cairo_set_antialias(context.get(), complexEdges());
   cairo_fill(context.get());

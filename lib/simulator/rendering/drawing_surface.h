@@ -94,7 +94,7 @@ class DrawingSurface {
   static void check(cairo_status_t);
   /// A context of a surface that covers the view, filled with the background.
   /// @param scale units of the surface per pixel of the view
-  Owned<cairo_t> contextOf(cairo_surface_t& surface, double scale, const std::optional<Color>& background) const;
+  Owned<cairo_t> makeContext(cairo_surface_t& surface, double scale, const std::optional<Color>& background) const;
 
   Owned<cairo_t> page_context_;     ///< of a document that is drawn besides the picture; null without one
   bool has_reduced_image_ = false;  ///< whether cells of a map are smaller than pixels

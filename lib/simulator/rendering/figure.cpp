@@ -44,7 +44,7 @@ Figure::Figure(const GroundView& view, const Color& background, Options options)
     : DrawingSurface(view, background, options.png_scale, Edges::exact), options_(std::move(options)) {
   if (options_.format == PictureFormat::png) return;
   page_.reset(pageOf(options_, view.width(), view.height(), document_));
-  page_context_ = contextOf(*page_, pageScale(options_, view.width()), background);
+  page_context_ = makeContext(*page_, pageScale(options_, view.width()), background);
 }
 
 std::string Figure::finish() {

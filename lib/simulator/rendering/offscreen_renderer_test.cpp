@@ -225,7 +225,7 @@ TEST(OffscreenRenderer, ShadesWallsDifferentlyFromGroundSkyAndEachOther) {
   }
 }
 
-cv::Vec3b hsvOf(const cv::Vec3b& bgr) {
+cv::Vec3b toHsv(const cv::Vec3b& bgr) {
   cv::Mat hsv;
   cv::cvtColor(cv::Mat(1, 1, CV_8UC3, cv::Scalar(bgr[0], bgr[1], bgr[2])), hsv, cv::COLOR_BGR2HSV);
   return hsv.at<cv::Vec3b>(0, 0);
@@ -238,7 +238,7 @@ TEST(OffscreenRenderer, DrawsColoursOfTheFile) {
     World world = emptyWorld();
     addBox(world, {2, 2.2, -1, 1}, 1.5, color);
     OffscreenRenderer renderer(world, {});
-    const auto hsv = hsvOf(pixel(renderer.picture(kCamera, at(0, 0, 0.5), {}), 110, 160));
+    const auto hsv = toHsv(pixel(renderer.picture(kCamera, at(0, 0, 0.5), {}), 110, 160));
     EXPECT_LT(std::min((hsv[0] - hue + 180) % 180, (hue - hsv[0] + 180) % 180), 6) << "hue " << 2 * hue << "°";
     EXPECT_GT(hsv[1], 150);
     EXPECT_GT(hsv[2], 90);

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxWithReadings = 20;
 constexpr double kFollowRadius_m = 6;  ///< initial radius shown around a followed robot
 
 /// Height of the tallest object of a world.
-double topOf(const World& world) {
+double computeTop(const World& world) {
   double top_m = 0;
   for (const auto& object : world.objects) top_m = std::max(top_m, object.body.heights().z_max_m);
   for (const auto& map : world.maps) top_m = std::max(top_m, map.heights().z_max_m);
@@ -44,7 +44,7 @@ double distanceToShow(const World& world, const OrbitCamera& air, double width_p
   double distance_m = 0.3;
   for (const double x : {b.x_min, b.x_max}) {
     for (const double y : {b.y_min, b.y_max}) {
-      for (const double z : {0.0, topOf(world)}) {
+      for (const double z : {0.0, computeTop(world)}) {
         // Forward, left and up from the target, in the camera's axes.
         mrpt::math::TPoint3D corner;
         from_target.inverseComposePoint({x, y, z}, corner);

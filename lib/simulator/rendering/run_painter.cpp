@@ -81,13 +81,13 @@ void RunPainter::paintFreeAreas() {
   const double floor_m2 = (world_.bounds.x_max - world_.bounds.x_min) * (world_.bounds.y_max - world_.bounds.y_min);
   const double opacity = covered_m2 > floor_m2 ? std::max(kTintMin, kTint * floor_m2 / covered_m2) : kTint;
   for (const auto& sensed : run_.sensed) {
-    for (const auto& area : sensed.free) figure_.polygon(pixelsOf(area), sensorColor(sensed.kind), opacity);
+    for (const auto& area : sensed.free) figure_.polygon(toPixels(area), sensorColor(sensed.kind), opacity);
   }
 }
 
 void RunPainter::paintEchoes() {
   for (const auto& sensed : run_.sensed) {
-    figure_.discs(pixelsOf(sensed.echoes), kEchoRadius_px, sensorColor(sensed.kind));
+    figure_.discs(toPixels(sensed.echoes), kEchoRadius_px, sensorColor(sensed.kind));
   }
 }
 
@@ -95,13 +95,13 @@ void RunPainter::paintSightLines() {
   for (const auto& sensed : run_.sensed) {
     const Color color = mix(sensorColor(sensed.kind), kFloorColor, kSightPaleness);
     for (const auto& line : sensed.lines) {
-      figure_.polyline(pixelsOf(line), kSight_px, color);
+      figure_.polyline(toPixels(line), kSight_px, color);
       if (line.size() == 2) figure_.disc(view_.toPixel(line.back()), 2 * kEchoRadius_px, sensorColor(sensed.kind));
     }
   }
 }
 
-std::vector<TPoint2D> RunPainter::pixelsOf(std::span<const TPoint2D> places) const {
+std::vector<TPoint2D> RunPainter::toPixels(std::span<const TPoint2D> places) const {
   std::vector<TPoint2D> pixels;
   pixels.reserve(places.size());
   for (const auto& place : places) pixels.push_back(view_.toPixel(place));
@@ -281,7 +281,7 @@ float RunPainter::pathPaleness() const {
 }
 
 void RunPainter::paintPath(std::size_t robot, float paleness) {
-  std::vector<TPoint2D> path = pixelsOf(run_.paths[robot]);
+  std::vector<TPoint2D> path = toPixels(run_.paths[robot]);
   if (path.empty()) return;
   if (robot < run_.world_from_robot.size()) {
     if (const auto end = robotPixel(robot)) path.push_back(*end);

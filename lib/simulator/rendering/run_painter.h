@@ -58,7 +58,7 @@ class RunPainter {
   void paintEchoes();
   void paintSightLines();
   void paintPath(std::size_t robot, float paleness);
-  std::vector<mrpt::math::TPoint2D> pixelsOf(std::span<const mrpt::math::TPoint2D> places) const;
+  std::vector<mrpt::math::TPoint2D> toPixels(std::span<const mrpt::math::TPoint2D> places) const;
 
   Figure& figure_;
   const GroundView& view_;

@@ -55,7 +55,7 @@ std::vector<Body> bodiesOf(const std::vector<WorldMap>& maps) {
   return bodies;
 }
 
-std::vector<Tile> tilesOf(std::vector<Body> bodies, const Bounds2D& bounds) {
+std::vector<Tile> makeTiles(std::vector<Body> bodies, const Bounds2D& bounds) {
   const double side_m =
       std::max({kTile_m, (bounds.x_max - bounds.x_min) / kMaxTiles, (bounds.y_max - bounds.y_min) / kMaxTiles});
   const int sides = bodies.size() <= 500 ? 72 : 24;
@@ -103,7 +103,7 @@ struct WorldScene::Impl {
 
 WorldScene::Impl::Parts WorldScene::Impl::partsOf(std::vector<Body> bodies) const {
   Parts parts;
-  for (Tile& tile : tilesOf(std::move(bodies), bounds)) {
+  for (Tile& tile : makeTiles(std::move(bodies), bounds)) {
     auto mesh = std::make_shared<InstancedMesh>(std::move(tile.bodies));
     mesh->instances() = {at(tile.center.x, tile.center.y)};
     parts.push_back(mesh);

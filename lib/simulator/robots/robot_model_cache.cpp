@@ -25,7 +25,7 @@ void mix(std::size_t& hash, const XmlElement& element) {
 void mix(std::size_t& hash, double number) { hash = hash * 1099511628211u ^ std::hash<double>{}(number); }
 
 /// Equal for robots that share a model.
-std::size_t hashOf(const RobotPlacement& robot) {
+std::size_t computeHash(const RobotPlacement& robot) {
   std::size_t hash = 0;
   mix(hash, robot.model);
   if (robot.body) mix(hash, robot.body->coveringRadius());
@@ -50,7 +50,7 @@ RobotModelCache::RobotModelCache(const World& world, std::string world_file, con
 }
 
 std::shared_ptr<const RobotModel> RobotModelCache::modelFor(const RobotPlacement& robot) {
-  auto& bucket = made_[hashOf(robot)];
+  auto& bucket = made_[computeHash(robot)];
   for (const auto& made : bucket) {
     if (shareModel(*made.first, robot)) return made.model;
   }

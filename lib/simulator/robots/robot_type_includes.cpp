@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* kInclude = "include";
 constexpr const char* kOnlyBelow = "; only files in the robot type's folder, or below it, are included";
 
-XmlElement* sensorsElementOf(XmlElement& type) {
+XmlElement* findSensorsElement(XmlElement& type) {
   const auto found = std::find_if(type.children.begin(), type.children.end(),
                                   [](const auto& child) { return child.name == "sensors"; });
   return found == type.children.end() ? nullptr : &*found;
@@ -25,9 +25,9 @@ XmlElement* sensorsElementOf(XmlElement& type) {
 bool isInclude(const XmlElement& element) { return element.name == kInclude; }
 
 /// The <include> elements of a type.
-std::vector<XmlElement*> includesOf(XmlElement& type) {
+std::vector<XmlElement*> listIncludes(XmlElement& type) {
   std::vector<XmlElement*> includes;
-  if (XmlElement* const sensors = sensorsElementOf(type)) {
+  if (XmlElement* const sensors = findSensorsElement(type)) {
     for (auto& sensor : sensors->children) {
       if (isInclude(sensor)) includes.push_back(&sensor);
     }
@@ -84,7 +84,7 @@ void fill(XmlElement& include, const fs::path& type_file, ErrorList& errors) {
 
 /// The type with each <include> replaced by its sensor.
 XmlElement flattened(XmlElement type) {
-  if (XmlElement* const sensors = sensorsElementOf(type)) sensors->children = sensorsOf(type);
+  if (XmlElement* const sensors = findSensorsElement(type)) sensors->children = sensorsOf(type);
   return type;
 }
 
@@ -92,7 +92,7 @@ XmlElement flattened(XmlElement type) {
 
 XmlElement withIncludedFiles(XmlElement type, const fs::path& file) {
   ErrorList errors;
-  for (XmlElement* const include : includesOf(type)) fill(*include, file, errors);
+  for (XmlElement* const include : listIncludes(type)) fill(*include, file, errors);
   errors.throwIfAny();
   return type;
 }
@@ -101,7 +101,7 @@ XmlElement readRobotType(const RobotTypeFile& type) {
   if (!type.text) return withIncludedFiles(readXmlFile(type.file), type.file);
   XmlElement root = parseXml(*type.text, type.file.string());
   ErrorList errors;
-  for (const XmlElement* const include : includesOf(root)) {
+  for (const XmlElement* const include : listIncludes(root)) {
     XmlReader(*include, type.file.string(), errors).error("is for files only; a text contains its sensors itself");
   }
   errors.throwIfAny();
@@ -134,7 +134,7 @@ std::string resolveIncludes(const RobotTypeFile& type) {
   } catch (const ConfigError&) {
     return text;  // reported, like all faults in a type's own file, by the reader of the text
   }
-  if (includesOf(root).empty()) return text;
+  if (listIncludes(root).empty()) return text;
   root = withIncludedFiles(std::move(root), type.file);
   // The lines of the included files are known only here.
   ErrorList errors;
@@ -151,7 +151,7 @@ std::vector<fs::path> filesIncludedBy(const RobotTypeFile& type) {
     const std::string text = readXmlText(type.file);
     if (text.find("<include") == std::string::npos) return files;
     XmlElement root = parseXml(text, type.file.string());
-    for (const XmlElement* const include : includesOf(root)) {
+    for (const XmlElement* const include : listIncludes(root)) {
       for (const auto& [name, value] : include->attributes) {
         if (name == "file") files.push_back(type.file.parent_path() / value);
       }

@@ -193,7 +193,7 @@ class Scatterer {
 
   /// Region of the centres: the area and the surface, less a disc's radius; its sides are negative when it is too
   /// narrow.
-  Bounds2D regionOf(const Scatter& scatter, const Copied& copied) const {
+  Bounds2D computeRegion(const Scatter& scatter, const Copied& copied) const {
     const double radius_m = copied.radius_m + kContactGap_m;  // so that rounding never places a disc beyond the edge
     const Bounds2D& surface = world_.bounds;
     const Bounds2D area = scatter.area.value_or(surface);
@@ -223,7 +223,7 @@ class Scatterer {
   }
 
   std::vector<TPoint2D> uniformPlaces(const Scatter& scatter, const Copied& copied, Rng& rng) {
-    const Bounds2D region = regionOf(scatter, copied);
+    const Bounds2D region = computeRegion(scatter, copied);
     std::vector<TPoint2D> places;
     if (isEmpty(region)) return places;
     Discs own(copied.radius_m, scatter.gap_m);
@@ -240,7 +240,7 @@ class Scatterer {
   }
 
   std::vector<TPoint2D> freePlaces(const Scatter& scatter, const Copied& copied, Rng& rng) {
-    const Bounds2D region = regionOf(scatter, copied);
+    const Bounds2D region = computeRegion(scatter, copied);
     FreeSpace free(world_, copied.radius_m, copied.heights);
     free.blockUnknown(world_);
     free.blockOutside(region);
@@ -262,7 +262,7 @@ class Scatterer {
 
   /// Rows and columns, first as far apart as `count` points can be, then closer until enough points are clear.
   std::vector<TPoint2D> gridPlaces(const Scatter& scatter, const Copied& copied) {
-    const Bounds2D region = regionOf(scatter, copied);
+    const Bounds2D region = computeRegion(scatter, copied);
     std::vector<TPoint2D> best;
     if (isEmpty(region)) return best;
     const double width_m = region.x_max - region.x_min, length_m = region.y_max - region.y_min;

@@ -23,7 +23,7 @@ std::string placeText(const TPose2D& place) {
 
 std::string notFree(const TPose2D& start) { return "the map's start " + placeText(start) + " is not free"; }
 
-std::string warningOf(const TPose2D& found, const char* what, const TPose2D& instead_of) {
+std::string makeWarning(const TPose2D& found, const char* what, const TPose2D& instead_of) {
   return "stands at " + placeText(found) + ", the " + what + ": " + notFree(instead_of);
 }
 
@@ -40,7 +40,7 @@ std::vector<std::size_t> robotsAt(const std::vector<TPose2D>& starts, const Worl
   return robots;
 }
 
-Fleet validFleetOf(const World& world, const std::string& world_file, const RobotTypes& types) {
+Fleet makeValidFleet(const World& world, const std::string& world_file, const RobotTypes& types) {
   ErrorList errors;
   Fleet fleet = buildFleet(world, world_file, types, {}, errors);
   errors.throwIfAny();
@@ -107,7 +107,7 @@ bool FreePlaces::take(const TPoint2D& place, double clearance_m) {
 
 std::optional<FoundStart> findStart(World& world, const std::string& world_file, const RobotTypes& types,
                                     const RobotPlacement& robot, const std::vector<TPose2D>& starts) {
-  const Fleet others = validFleetOf(world, world_file, types);
+  const Fleet others = makeValidFleet(world, world_file, types);
   struct Added {
     World& world;
     explicit Added(World& to, const RobotPlacement& robot) : world(to) { world.robots.push_back(robot); }
@@ -122,19 +122,20 @@ std::optional<FoundStart> findStart(World& world, const std::string& world_file,
     ErrorList errors;
     const Fleet fleet = buildFleet(world, world_file, types, {}, errors);
     if (fleet.robots.size() < world.robots.size()) errors.throwIfAny();  // its model is faulty
-    if (errors.empty()) return FoundStart{starts[i], i == 0 ? "" : warningOf(starts[i], "next free start", starts[0])};
+    if (errors.empty())
+      return FoundStart{starts[i], i == 0 ? "" : makeWarning(starts[i], "next free start", starts[0])};
     kind = fleet.robots.back();
   }
   const TPose2D& first = starts.front();
   const auto place = FreePlaces(world, others, *kind).takeNearest({first.x, first.y});
   if (!place) return std::nullopt;
   const TPose2D world_from_robot(place->x, place->y, first.phi);
-  return FoundStart{world_from_robot, warningOf(world_from_robot, "nearest free place", first)};
+  return FoundStart{world_from_robot, makeWarning(world_from_robot, "nearest free place", first)};
 }
 
 std::optional<TPose2D> findStartBeside(const World& world, const std::string& world_file, const RobotTypes& types,
                                        const std::string& type) {
-  const Fleet others = validFleetOf(world, world_file, types);
+  const Fleet others = makeValidFleet(world, world_file, types);
   const FleetRobot kind = robotOfType(types, type);
   FreePlaces places(world, others, kind);
   // A robot behind another one has less room to drive.

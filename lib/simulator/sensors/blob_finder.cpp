@@ -42,7 +42,7 @@ class BlobFinder : public Sensor {
 };
 
 /// Hue in [0, 2π); nullopt for a grey, which has none.
-std::optional<double> hueOf(const std::vector<double>& rgb) {
+std::optional<double> computeHue(const std::vector<double>& rgb) {
   const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
   const double spread = *high - *low;
   if (spread <= 0.05) return std::nullopt;
@@ -57,7 +57,7 @@ TargetColor readColor(XmlReader reader) {
   color.name = reader.word("name");
   if (!reader.has("rgb")) reader.error("<rgb> is missing; add red, green and blue, such as rgb=\"1 0.8 0.1\"");
   const auto rgb = reader.numbers("rgb", 3, {0, 1}, {1, 0, 0});
-  if (const auto hue_rad = hueOf(rgb)) {
+  if (const auto hue_rad = computeHue(rgb)) {
     color.hue_rad = *hue_rad;
   } else {
     reader.errorAt("rgb", "is a grey, which has no hue; give a colour");

@@ -27,7 +27,7 @@ class Camera : public Sensor {
       const auto poses = shownPoses(now.world_from_robot, now.activity);
       if (view_.hasErrors()) {
         CameraView view = view_;
-        view.moment = momentOf(now, robots, slot);
+        view.moment = makeMoment(now, robots, slot);
         now.images->take(view, {poses, now.objects}, robots, jpegs);
       } else {
         now.images->take(view_, {poses, now.objects}, robots, jpegs);
@@ -39,7 +39,7 @@ class Camera : public Sensor {
   }
 
  private:
-  static CameraMoment momentOf(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot) {
+  static CameraMoment makeMoment(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot) {
     CameraMoment moment;
     for (const auto robot : robots) {
       Rng rng = now.noise(robot, slot);

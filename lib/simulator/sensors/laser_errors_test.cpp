@@ -20,7 +20,7 @@ struct Statistics {
 };
 
 /// Of the ranges below `no_return_m` of a single beam in `n` steps.
-Statistics statisticsOf(SingleRobotScene& robot, const Sensor& laser, int n, double no_return_m = 8) {
+Statistics computeStatistics(SingleRobotScene& robot, const Sensor& laser, int n, double no_return_m = 8) {
   double sum = 0, squares = 0;
   Statistics s;
   for (int i = 0; i < n; ++i) {
@@ -43,7 +43,7 @@ TEST(LaserErrors, InterpolateTheStandardDeviationOverTheRange) {
   // Relative standard error of a standard deviation: 1/√(2n) = 1.1 %; four of them.
   for (const auto& [range_m, std_m] : {std::pair(0.5, 0.01), {2.0, 0.02}, {4.0, 0.04}, {9.0, 0.05}}) {
     SingleRobotScene robot(wallAhead(range_m));
-    const Statistics s = statisticsOf(robot, *laser, n, 20);
+    const Statistics s = computeStatistics(robot, *laser, n, 20);
     EXPECT_NEAR(s.std, std_m, 0.045 * std_m) << range_m;
     EXPECT_NEAR(s.mean, range_m, 4 * std_m / std::sqrt(n)) << range_m;
   }

@@ -55,7 +55,7 @@ class LaserScanner : public Sensor {
   void cast(const Snapshot& now, std::uint32_t robot, std::size_t slot, double pan_rad, BeamHits& hits) const {
     const Motion& motion = now.last_motion[robot];
     const bool has_moved = motion.length_m != 0 || motion.turn_rad != 0;
-    const double latency_s = has_moved ? latencyOf(now, robot, slot) : 0;
+    const double latency_s = has_moved ? drawLatency(now, robot, slot) : 0;
     if (has_moved && (timing_.sweep_s > 0 || timing_.interlace_s > 0 || latency_s > 0)) {
       return castSwept(now, robot, latency_s, pan_rad, hits);
     }
@@ -64,7 +64,7 @@ class LaserScanner : public Sensor {
   }
 
   /// Age of the last beam. Its random numbers are those of one beam more than the scanner has.
-  double latencyOf(const Snapshot& now, std::uint32_t robot, std::size_t slot) const {
+  double drawLatency(const Snapshot& now, std::uint32_t robot, std::size_t slot) const {
     if (timing_.latency_std_s == 0) return timing_.latency_s;
     Rng rng(now.seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), now.time.step);
     rng.skipToBlock(static_cast<std::uint32_t>(beams_.size()));

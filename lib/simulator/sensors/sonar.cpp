@@ -216,7 +216,7 @@ class Sonar : public Sensor {
   /// Replaces what the ping has met by the echo that returns.
   void reflect(const Snapshot& now, std::uint32_t robot, const PlanarTransform& frame, const MountedSonar& sonar,
                Detection& detection) const {
-    const Ray axis = axisOf(frame, sonar);
+    const Ray axis = computeAxis(frame, sonar);
     const BodyId owner = now.bodyOf(robot);
     SonarEcho met{detection.range_m, frame.turnToWorld(detection.direction),
                   frame.pointToWorld(sonar.origin + detection.direction * detection.range_m)};
@@ -235,7 +235,7 @@ class Sonar : public Sensor {
     if (echo) detection = {echo->range_m, frame.turnToFrame(echo->direction), body};
   }
 
-  static Ray axisOf(const PlanarTransform& frame, const MountedSonar& sonar) {
+  static Ray computeAxis(const PlanarTransform& frame, const MountedSonar& sonar) {
     return {frame.pointToWorld(sonar.origin), frame.turnToWorld(sonar.axis)};
   }
 
@@ -269,7 +269,7 @@ class Sonar : public Sensor {
       const double range_m = std::max(noise.blanking_m, ranges->uniform() * options_.range_max_m);
       const double half_rad = noise.lobe.on ? noise.lobe.wall_rad : options_.beam_width_rad / 2;
       if (range_m >= detection.range_m) continue;
-      if (mayReceivePing(now, robot, axisOf(frame, sonars_[i]), half_rad, options_.range_max_m)) {
+      if (mayReceivePing(now, robot, computeAxis(frame, sonars_[i]), half_rad, options_.range_max_m)) {
         detection = {range_m, sonars_[i].axis, kNoBody};
       }
     }

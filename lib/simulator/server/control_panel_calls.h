@@ -198,7 +198,7 @@ class ControlPanelSession::Watcher final : public StreamSession<v1::WatchRequest
   static constexpr std::chrono::milliseconds kIntervalMin{50};
 
   /// Minimum time between two statuses of a watcher.
-  static ServingState::Clock::duration intervalOf(const v1::WatchRequest& request) {
+  static ServingState::Clock::duration readInterval(const v1::WatchRequest& request) {
     const double s = request.min_interval_s();
     if (!(s >= 0 && s <= 3600)) {
       throw WireError("a minimum interval of " + std::to_string(s) + " s; must lie in [0, 3600]");
@@ -209,7 +209,7 @@ class ControlPanelSession::Watcher final : public StreamSession<v1::WatchRequest
   ReadPolicy received(const v1::WatchRequest& request) override {
     if (isEstablished()) throw WireError("a second request in one call");
     checkProtocol(request.protocol());
-    interval = intervalOf(request);
+    interval = readInterval(request);
     due = owner_.serving_.now();
     establish();
     owner_.watchers_.push_back(std::static_pointer_cast<Watcher>(shared_from_this()));

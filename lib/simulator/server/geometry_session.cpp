@@ -178,7 +178,7 @@ GeometrySession::Streams GeometrySession::readyWorkers(std::size_t robots) {
   return workers;
 }
 
-internal::Task GeometrySession::taskOf(Environment& environment) {
+internal::Task GeometrySession::makeTask(Environment& environment) {
   internal::Task task;
   task.set_step(environment.time().step);
   const auto& commands = environment.state().commands;
@@ -223,7 +223,7 @@ void GeometrySession::step(Environment& environment) {
   environment.phases().begin();
   environment.phases().clip(every);
   environment.phases().judge(every);
-  const internal::Task task = taskOf(environment);
+  const internal::Task task = makeTask(environment);
   environment_ = &environment;
   for (const auto& stream : workers) send(*stream, task, state);
   environment.phases().move();

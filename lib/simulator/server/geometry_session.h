@@ -43,7 +43,7 @@ class GeometrySession final : public internal::Geometry::WithRawMethod_Work<inte
   void takeResult(Stream& stream, const internal::TaskResult& result);
   void reject(Stream& stream, const std::string& reason);
   Streams readyWorkers(std::size_t robots);
-  internal::Task taskOf(Environment& environment);
+  internal::Task makeTask(Environment& environment);
   void send(Stream& stream, const internal::Task& task, const internal::ReplicaState& state);
   void awaitResults(const Streams& workers);
   void compareSamples(const Streams& workers, Environment& environment);

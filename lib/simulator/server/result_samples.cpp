@@ -9,7 +9,7 @@
 namespace robosim {
 namespace {
 
-std::vector<Measurement> measurementsOf(const Environment& environment, std::size_t robot) {
+std::vector<Measurement> copyMeasurements(const Environment& environment, std::size_t robot) {
   std::vector<Measurement> measurements;
   const auto& sensors = environment.fleet().robots[robot].model->sensors;
   for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
@@ -34,7 +34,7 @@ std::vector<ResultSamples::Expected> ResultSamples::compute(Environment& environ
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t robot = share.begin + (first + k) % robots;
     environment.phases().sense({robot, robot + 1});
-    sample.push_back({robot, measurementsOf(environment, robot)});
+    sample.push_back({robot, copyMeasurements(environment, robot)});
   }
   return sample;
 }
@@ -42,7 +42,7 @@ std::vector<ResultSamples::Expected> ResultSamples::compute(Environment& environ
 std::optional<std::size_t> ResultSamples::firstDifference(const std::vector<Expected>& sample,
                                                           const Environment& environment) {
   for (const auto& expected : sample) {
-    if (measurementsOf(environment, expected.robot) != expected.measurements) return expected.robot;
+    if (copyMeasurements(environment, expected.robot) != expected.measurements) return expected.robot;
   }
   return std::nullopt;
 }

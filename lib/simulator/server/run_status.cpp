@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kNamesMax = 100;
 
-v1::RecordingState recordingStateOf(RecordingStatus::State state) {
+v1::RecordingState toRecordingState(RecordingStatus::State state) {
   switch (state) {
     case RecordingStatus::State::none:
       return v1::RECORDING_STATE_NONE;
@@ -20,7 +20,7 @@ v1::RecordingState recordingStateOf(RecordingStatus::State state) {
   return v1::RECORDING_STATE_UNSPECIFIED;
 }
 
-v1::LostRobotPolicy policyOf(OnLostRobot policy) {
+v1::LostRobotPolicy toPolicy(OnLostRobot policy) {
   switch (policy) {
     case OnLostRobot::wait:
       return v1::LOST_ROBOT_POLICY_WAIT;
@@ -45,14 +45,14 @@ void describeRun(const ServedRun& run, v1::RunStatus& status) {
   status.set_robots_active(
       static_cast<std::uint32_t>(std::count(state.activity.begin(), state.activity.end(), Activity::active)));
   const RecordingStatus recording = run.recording();
-  status.set_recording(recordingStateOf(recording.state));
+  status.set_recording(toRecordingState(recording.state));
   status.set_recording_file(recording.file);
   status.set_recording_failure(recording.failure);
   if (state.winner()) status.set_winner(run_info.robot_names[*state.winner()]);
 }
 
 void describeReport(const RunReport& report, v1::RunStatus& status) {
-  status.set_on_lost_robot(policyOf(report.on_lost_robot));
+  status.set_on_lost_robot(toPolicy(report.on_lost_robot));
   for (const LostRobot& robot : report.lost_robots) {
     if (static_cast<std::size_t>(status.lost_robots_size()) == kNamesMax) break;
     auto& lost = *status.add_lost_robots();

@@ -115,8 +115,8 @@ RunNote RunNote::of(const std::string& rawlog) {
                      "be summarised and viewed, but its run cannot be repeated");
 }
 
-RunNote noteOf(const WorldSource& source, const LocalRun& run, const RunOptions& options,
-               const std::vector<std::uint8_t>& elsewhere) {
+RunNote makeNote(const WorldSource& source, const LocalRun& run, const RunOptions& options,
+                 const std::vector<std::uint8_t>& elsewhere) {
   RunNote note;
   note.world = source;
   note.world_version = versionOf(source);

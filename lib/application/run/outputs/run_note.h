@@ -40,7 +40,7 @@ struct RunNote {
 
 /// The note at the start of this run's recording.
 /// @param elsewhere by robot: whether it is driven by another process; empty for none
-RunNote noteOf(const WorldSource& source, const LocalRun& run, const RunOptions& options,
-               const std::vector<std::uint8_t>& elsewhere = {});
+RunNote makeNote(const WorldSource& source, const LocalRun& run, const RunOptions& options,
+                 const std::vector<std::uint8_t>& elsewhere = {});
 
 }  // namespace robosim

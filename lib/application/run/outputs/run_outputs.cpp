@@ -64,7 +64,7 @@ void draw(const std::string& picture, const Environment& environment,
 
 }  // namespace
 
-WorldSource sourceOf(const RunArguments& arguments) {
+WorldSource readRunSource(const RunArguments& arguments) {
   WorldSource source = readWorldSource(arguments.world);
   source.seed = arguments.run.environment.seed;
   return withChanges(source, arguments.changes, arguments.run.environment.seed);

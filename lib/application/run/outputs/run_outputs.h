@@ -31,7 +31,7 @@ struct RunArguments {
 };
 
 /// The world given by the arguments, including their changes. @throws ConfigError
-WorldSource sourceOf(const RunArguments& arguments);
+WorldSource readRunSource(const RunArguments& arguments);
 
 /// Output files of a run: rawlog, picture and summary, according to the arguments.
 class RunOutputs {

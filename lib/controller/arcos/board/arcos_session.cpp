@@ -99,10 +99,10 @@ void ArcosSession::execute(const Packet& packet, std::string& answer) {
       answer += encode(robot_.board->config());
       return;
     case command::encoder:
-      encoder_ = streamOf(packet);
+      encoder_ = readStream(packet);
       return;
     case command::io_request:
-      io_ = streamOf(packet);
+      io_ = readStream(packet);
       return;
     case command::old_laser_enable:
     case command::old_laser_start:
@@ -135,7 +135,7 @@ void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
       robot_.board->zeroOdometry();
       return;
     case command::sim_stat:
-      sim_stat_ = packet.payload.empty() ? Stream::once : streamOf(packet);
+      sim_stat_ = packet.payload.empty() ? Stream::once : readStream(packet);
       return;
     case command::sim_message:
       robot_.simulator->log("message: " + arcos::textOf(packet).value_or(""));
@@ -193,7 +193,7 @@ void ArcosSession::configureLaser(const Packet& packet) {
   laser_.form = LaserRequest::Form::off;
 }
 
-ArcosSession::Stream ArcosSession::streamOf(const Packet& packet) {
+ArcosSession::Stream ArcosSession::readStream(const Packet& packet) {
   switch (arcos::numberOf(packet).value_or(0)) {
     case 0:
       return Stream::off;

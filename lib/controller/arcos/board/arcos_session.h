@@ -76,7 +76,7 @@ class ArcosSession {
   void executeSimulator(const arcos::Packet& packet, std::string& answer);
   void configureLaser(const arcos::Packet& packet);
   void end(const std::string& reason);
-  static Stream streamOf(const arcos::Packet& packet);
+  static Stream readStream(const arcos::Packet& packet);
   static bool takes(Stream& stream);
 
   const Claim claim_;

@@ -19,7 +19,7 @@ constexpr double kSlack_rad = 1e-9;
 
 double bearingOf(const TPoint2D& direction) { return portable::atan2(direction.y, direction.x); }
 
-std::vector<Sector> sectorsOf(std::span<const Ray> rays) {
+std::vector<Sector> toSectors(std::span<const Ray> rays) {
   std::vector<Sector> sectors;
   for (const auto& ray : rays) {
     const TPoint2D direction(ray.direction.x, ray.direction.y);
@@ -28,7 +28,7 @@ std::vector<Sector> sectorsOf(std::span<const Ray> rays) {
   return sectors;
 }
 
-TPoint2D facingOf(std::span<const Sector> sectors) {
+TPoint2D computeFacing(std::span<const Sector> sectors) {
   TPoint2D sum;
   for (const auto& sector : sectors) sum += sector.axis;
   if (sum.norm() < 1e-3) return {};
@@ -40,7 +40,7 @@ TPoint2D facingOf(std::span<const Sector> sectors) {
   return all_ahead ? sum : TPoint2D();
 }
 
-double halfWidthOf(const Sector& sector) {
+double computeHalfWidth(const Sector& sector) {
   const auto angle_to = [&](const TPoint2D& edge) {
     if (edge == sector.axis) return 0.0;  // a ray
     return std::abs(portable::atan2(sector.axis.x * edge.y - sector.axis.y * edge.x,
@@ -51,7 +51,7 @@ double halfWidthOf(const Sector& sector) {
 
 }  // namespace
 
-BeamFan::BeamFan(std::span<const Ray> rays) : BeamFan(sectorsOf(rays)) { is_wide_ = false; }
+BeamFan::BeamFan(std::span<const Ray> rays) : BeamFan(toSectors(rays)) { is_wide_ = false; }
 
 BeamFan::BeamFan(std::span<const Sector> sectors) : is_wide_(true) {
   if (sectors.empty()) return;
@@ -61,9 +61,9 @@ BeamFan::BeamFan(std::span<const Sector> sectors) : is_wide_(true) {
   middle_ *= 1.0 / static_cast<double>(count);
   for (const auto& sector : sectors) {
     spread_m_ = std::max(spread_m_, (TPoint2D(sector.apex.x, sector.apex.y) - middle_).norm());
-    half_width_rad_ = std::max(half_width_rad_, static_cast<float>(halfWidthOf(sector)));
+    half_width_rad_ = std::max(half_width_rad_, static_cast<float>(computeHalfWidth(sector)));
   }
-  facing_ = facingOf(sectors);
+  facing_ = computeFacing(sectors);
 
   std::vector<double> bearings_rad;
   for (const auto& sector : sectors) bearings_rad.push_back(bearingOf(sector.axis));

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<float, 3> kWallColor{0.55f, 0.46f, 0.37f};
 
 /// Hues a golden angle apart, so that robots of adjacent indices differ clearly.
-std::array<float, 3> colorOf(int index) {
+std::array<float, 3> pickColor(int index) {
   const double hue = std::fmod(index * 0.381966, 1) * 6;
   const double parts[] = {std::abs(hue - 3) - 1, 2 - std::abs(hue - 2), 2 - std::abs(hue - 4)};
   std::array<float, 3> color{};
@@ -120,7 +120,7 @@ World populated(Scenery scenery, const TeamOptions& team, std::uint64_t seed) {
     robot.model = team.models[i % team.models.size()];
     const double heading_rad = (static_cast<double>(spread.rng().below(4)) - 1) * std::numbers::pi / 2;
     robot.world_from_robot = {starts[i].x, starts[i].y, heading_rad};
-    robot.color = colorOf(static_cast<int>(i));
+    robot.color = pickColor(static_cast<int>(i));
     robot.controller = team.controller;
     if (starts.size() > 1) robot.neighbour = name_of((i + 1) % starts.size());
     world.robots.push_back(std::move(robot));
