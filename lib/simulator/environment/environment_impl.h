@@ -171,13 +171,18 @@ struct Environment::Impl {
   void moveObjects() {
     if (!object_mover.move(scene, workers, model->period_s, paths, motions)) return;
     for (std::size_t i = 0; i < paths.size(); ++i) state.stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
-    std::vector<WorldObject> moved = objects();
-    for (std::size_t k = 0, object = 0; k < motions.size(); ++object) {
-      if (moved[object].isStationary()) continue;
-      moved[object].body.world_from_body = motions[k].world_from_object;
-      if (moved[object].door) moved[object].door->share = motions[k].door_share;
+    const std::vector<std::uint32_t> moving = movingObjects(objects());
+    bool have_moved = false;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
       state.object_speeds[k] = motions[k];
-      ++k;
+      have_moved |= objects()[moving[k]].body.world_from_body != motions[k].world_from_object;
+    }
+    if (!have_moved) return;
+    std::vector<WorldObject> moved = objects();
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      WorldObject& object = moved[moving[k]];
+      object.body.world_from_body = motions[k].world_from_object;
+      if (object.door) object.door->share = motions[k].door_share;
     }
     state.objects = ChangedObjects(std::move(moved));
   }
