@@ -264,7 +264,8 @@ TEST(Viewing, ShowsAnInterventionAlsoInAPausedRun) {
   Panel panel(world);
   Viewer viewer(world.connectOptions());
   EXPECT_FALSE(viewer.run().snapshot.objects.areChanged());
-  const WorldObject box{"box", {Cube{0.1, 0.1}, {0.5, 0.5, 0}, 5, 0.1}, {}, {}};  // above the robots
+  const WorldObject box{
+      .name = "box", .body = {Cube{0.1, 0.1}, {0.5, 0.5, 0}, 5, 0.1}, .line = {}};  // above the robots
   panel.supervise(AddObject{box});
   ASSERT_TRUE(viewer.waitForFrame());
   EXPECT_EQ(viewer.run().snapshot.step, 0u);
