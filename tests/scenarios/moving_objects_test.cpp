@@ -51,7 +51,7 @@ TEST(MovingObjects, AreWhereTheyWereInViewsOfARecording) {
     pushed_m = std::max(pushed_m, crate.x - 1.5);
     opened_m = std::max(opened_m, now[1].body.world_from_body.y);
   }
-  EXPECT_GT(pushed_m, 1);
+  EXPECT_GT(pushed_m, 0.5);
   EXPECT_NEAR(opened_m, 1.2, 1e-9);
 }
 
@@ -75,7 +75,9 @@ TEST(MovingObjects, ThatOverlapAtTheStartAreReportedWithTheirLines) {
 <movable/></cylinder></primitive></shape></object>
 <object><shape><primitive><cylinder><name>post</name><x>0.6</x><y>0</y><z>0.1</z><radius>0.2</radius><height>0.2</height>
 </cylinder></primitive></shape></object></surface></world>)";
-  const std::string errors = refusalOf("check " + quoted(file));
+  const Ended check = runProgram("check " + quoted(file));
+  EXPECT_EQ(check.exit_code, 1);
+  const std::string errors = check.out + check.err;
   const std::string at = file.string() + ":2: the movable object 'ball' at (0.9, 0) m ";
   EXPECT_NE(errors.find(at + "stands outside the surface, or reaches over its edge; move it inside"), std::string::npos)
       << errors;
