@@ -68,6 +68,18 @@ TEST(Door, IsHeldOpenByARobotAndDoesNotPushIt) {
   EXPECT_EQ(world.objects[door].door_share, 0);
 }
 
+TEST(Door, DoesNotStopARobotThatDrivesAheadOfIt) {
+  ObjectWorld world;
+  const auto door = world.addDoor({0, 0, M_PI_2}, 1, {.slide_m = 2, .speed = 0.5, .share = 1});
+  // The closing door comes down behind the robot, faster than it drives.
+  const auto robot = world.addRobot({0, 1.2, -M_PI_2}, 0.2);
+  world.run(3);
+  EXPECT_FALSE(world.is_blocked[robot]);
+  EXPECT_NEAR(world.poses[robot].y, 1.2 - 3 * 0.2, 1e-9);
+  EXPECT_GT(world.objects[door].door_share, 0.3) << "the robot holds it";
+  EXPECT_EQ(world.deepestOverlap(), 0);
+}
+
 TEST(Door, PushesABoxAside) {
   ObjectWorld world;
   world.addDoor({0, 0, M_PI_2}, 1, {.slide_m = -1, .speed = 0.5, .open_to = 1});

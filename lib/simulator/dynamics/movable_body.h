@@ -13,7 +13,7 @@ namespace robosim {
 /// Its weight is spread evenly over its base, so that the friction of the floor resists pushes by force and torque
 /// within an ellipsoid, the limit surface (Howe & Cutkosky, "Practical force-motion models for sliding manipulation",
 /// IJRR 1996; Lynch & Mason, "Stable pushing", IJRR 1996). Its axes are `friction · weight` and `turn_radius_m` times
-/// that. The body's inertia is taken from the same length, as `mass · turn_radius²`: 12 % below that of a homogeneous
+/// that. The body's inertia is taken from the same length, as `mass · turn_radius²`: 11 % below that of a homogeneous
 /// disc. Then a push from rest and a continued push turn the body alike, and lengths in (x, y, turn_radius · turn)
 /// serve both.
 struct MovableBody {

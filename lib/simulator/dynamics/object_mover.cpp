@@ -28,9 +28,10 @@ struct ObjectMover::Search {
   const Scene& scene;
   std::span<const Path> paths;
   std::span<const ObjectMotion> objects;
-  std::vector<double> door_shares;  ///< by object: to which a door is to be open at the end
-  double speed_max_mps = 0;         ///< of all bodies at the start of the step
-  double reach_m = 0;               ///< no object moves farther
+  std::vector<std::uint8_t> moves_;  ///< by robot; paths change while groups are computed
+  std::vector<double> door_shares;   ///< by object: to which a door is to be open at the end
+  double speed_max_mps = 0;          ///< of all bodies at the start of the step
+  double reach_m = 0;                ///< no object moves farther
   double path_max_m = 0;
   Sets sets;
   std::vector<std::uint8_t> is_member;  ///< by body: an object that may move, or a robot that such a one may block
@@ -45,8 +46,12 @@ struct ObjectMover::Search {
         objects(the_objects),
         sets(the_paths.size() + the_objects.size()),
         is_member(the_paths.size() + the_objects.size()) {
-    for (const auto& path : paths) path_max_m = std::max(path_max_m, std::abs(path.clippedLength()));
-    speed_max_mps = path_max_m / period_s;
+    for (const auto& path : paths) {
+      moves_.push_back(path.clippedLength() != 0 ? 1 : 0);
+      path_max_m = std::max(path_max_m, std::abs(path.clippedLength()));
+      // A clipped robot drives as fast as another, until it stops.
+      if (path.clippedLength() != 0) speed_max_mps = std::max(speed_max_mps, std::abs(path.length_m) / period_s);
+    }
     door_shares.resize(objects.size());
     for (std::size_t k = 0; k < objects.size(); ++k) {
       const auto& motion = objects[k];
@@ -55,8 +60,8 @@ struct ObjectMover::Search {
       speed_max_mps = std::max(speed_max_mps, portable::hypot(motion.vx_mps, motion.vy_mps) +
                                                   std::abs(motion.turn_radps) * of.bodies_[k].covering_radius_m);
     }
-    // A body that bounces off another of any mass becomes at most twice as fast as the other.
-    speed_max_mps *= 2;
+    // A body that bounces off a heavy one that comes towards it leaves with its own speed and twice the other's.
+    speed_max_mps *= 3;
     reach_m = speed_max_mps * period_s + kSlack_m;
   }
 
@@ -69,7 +74,9 @@ struct ObjectMover::Search {
     door_shares[k] = std::clamp(to, share - most, share + most);
     if (door_shares[k] == share) return;
     const double radius_m = body.door->turn_rad == 0 ? 1 : std::get<Cube>(body.shape).length_m / 2;
-    speed_max_mps = std::max(speed_max_mps, body.door->speed * radius_m);
+    const double way =
+        std::abs((door_shares[k] - share) * (body.door->turn_rad == 0 ? body.door->slide_m : body.door->turn_rad));
+    speed_max_mps = std::max(speed_max_mps, way * radius_m / period_s);
   }
 
   bool isRobotNear(std::size_t door) const {
@@ -90,7 +97,7 @@ struct ObjectMover::Search {
   bool isRobot(std::uint32_t body) const { return body < paths.size(); }
   std::uint32_t bodyOf(std::size_t object) const { return robotCount() + static_cast<std::uint32_t>(object); }
   const MovableBody& object(std::uint32_t body) const { return of.bodies_[body - paths.size()]; }
-  bool moves(std::uint32_t robot) const { return paths[robot].clippedLength() != 0; }
+  bool moves(std::uint32_t robot) const { return moves_[robot] != 0; }
   TPoint2D centerOf(std::uint32_t body) const {
     if (isRobot(body)) return startOf(paths[body]);
     const auto& pose = objects[body - paths.size()].world_from_object;

@@ -226,14 +226,17 @@ class PushingStep {
 
   std::size_t nodeOf(std::size_t robot) const { return to_.objects.size() + robot; }
 
-  /// Bodies that push each other in this part. Stationary solids and robots at rest connect nothing.
+  /// Bodies that push each other in this part. Stationary solids, and robots that do not drive towards an object,
+  /// connect nothing.
   Sets pushedTogether(const Island& island) const {
     Sets sets(to_.objects.size() + stops_.size());
     for (const auto p : island.pairs) {
       const auto& pair = group_.pairs[p];
       if (!pushing_[p]) continue;
       if (pair.with == With::object) sets.join(pair.first, pair.second);
-      if (pair.with == With::robot && !isAtRest(pair.second)) sets.join(pair.first, nodeOf(pair.second));
+      if (pair.with == With::robot && !isAtRest(pair.second) && drivesTowards(pair)) {
+        sets.join(pair.first, nodeOf(pair.second));
+      }
     }
     return sets;
   }
@@ -289,7 +292,8 @@ class PushingStep {
   void holdJammed(const Island& island, double at) {
     while (const PushingGroup::Pair* const pair = firstOverlap(island)) {
       if (pair->with == With::robot && isDoor(pair->first) && !isAtRest(pair->second)) {
-        // A robot that drives against a door does not hold it.
+        // A robot that drives against a door does not hold it, and one that drives ahead of it is not stopped by it.
+        if (!drivesTowards(*pair) && holdDoor(pair->first, at)) continue;
         stops_[pair->second] = at;
         to_.robots[pair->second] = from_.robots[pair->second];
         continue;
@@ -301,16 +305,31 @@ class PushingStep {
       if (pair->with == With::robot || pair->with == With::two_robots) second = sets.of(nodeOf(pair->second));
       const auto is_held = [&](std::size_t node) { return sets.of(node) == first || sets.of(node) == second; };
       for (const auto i : island.objects) {
-        if (!is_held(i)) continue;
-        to_.objects[i] = {{}, from_.objects[i].world_from_object};
-        door_stops_[i] = std::min(door_stops_[i], at);
-        to_.outlines[i] = from_.outlines[i];
+        if (is_held(i)) hold(i, at);
       }
       stopRobots(island, at, [&](std::size_t r) { return is_held(nodeOf(r)); });
       for (const auto r : island.robots) {
         if (is_held(nodeOf(r))) to_.robots[r] = from_.robots[r];
       }
     }
+  }
+
+  void hold(std::size_t i, double at) {
+    to_.objects[i] = {{}, from_.objects[i].world_from_object};
+    to_.outlines[i] = from_.outlines[i];
+    door_stops_[i] = std::min(door_stops_[i], at);
+  }
+  /// @return whether it moved
+  bool holdDoor(std::size_t i, double at) {
+    if (to_.objects[i].world_from_object == from_.objects[i].world_from_object) return false;
+    hold(i, at);
+    return true;
+  }
+
+  /// Whether the robot of a pair approaches the object by its own motion.
+  bool drivesTowards(const PushingGroup::Pair& pair) const {
+    const TPoint2D way = to_.robots[pair.second] - from_.robots[pair.second];
+    return dot(way, contactOf(group_, from_, pair).normal) < 0;
   }
 
   PushingGroup& group_;

@@ -93,6 +93,26 @@ TEST(Pushing, PassesTheSpeedOfABallOnToAnEqualOne) {
   EXPECT_NEAR(world.objects[third].vx_mps, 1, 1e-12);
 }
 
+TEST(Pushing, BouncesABallOffARobotThatComesTowardsIt) {
+  ObjectWorld world;
+  world.addRobot({0, 0, 0}, 1);
+  const auto ball = world.addDisc({1, 0, 0}, 0.1, {.mass_kg = 0.4, .friction = 0, .restitution = 1});
+  world.objects[ball].vx_mps = -1;
+  world.run(1);
+  EXPECT_NEAR(world.objects[ball].vx_mps, 3, 1e-9) << "2 m/s of approach become 2 m/s of separation";
+}
+
+TEST(Pushing, DoesNotStopARobotThatDrivesAwayFromAJam) {
+  // A pushes a box against B, which drives slowly in the same direction.
+  ObjectWorld world;
+  world.addRobot({0, 0, 0}, 0.5);
+  world.addBox({0.5, 0, 0}, 0.4, 0.4);
+  const auto ahead = world.addRobot({0.96, 0, 0}, 0.2);
+  world.run(2);
+  EXPECT_NEAR(world.poses[ahead].x, 0.96 + 0.4, 1e-9);
+  EXPECT_TRUE(world.is_blocked[0]);
+}
+
 TEST(Pushing, PushesThreeBoxesInARow) {
   ObjectWorld world;
   world.addRobot({0, 0, 0}, 0.3);

@@ -109,6 +109,10 @@ struct Environment::Impl {
 
   void noteMotions() {
     motions.clear();
+    if (movingObjects(objects()).size() != state.object_speeds.size()) {
+      throw std::invalid_argument(
+          "a state whose moving objects are not those of its world; use a state of the same world");
+    }
     for (const auto i : movingObjects(objects())) {
       const WorldObject& object = objects()[i];
       ObjectMotion& motion =

@@ -1,5 +1,6 @@
 #include "environment/intervention_bytes.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,8 @@ namespace {
 
 /// Longest text of a change.
 constexpr std::size_t kChangeBytesMax = 1 << 20;
+/// Of saved objects [m/s, rad/s].
+constexpr double kObjectSpeedMax = 1e4;
 
 Change takeChange(StateReader& in) {
   try {
@@ -69,7 +72,10 @@ void readSpeeds(StateReader& in, State& state) {
   requireContents(in.takeNumber<std::uint32_t>() == movable, "the number of movable objects differs");
   state.object_speeds.resize(movable);
   for (ObjectSpeed& speed : state.object_speeds) {
-    for (double* number : {&speed.vx_mps, &speed.vy_mps, &speed.turn_radps}) *number = in.takeFinite();
+    for (double* number : {&speed.vx_mps, &speed.vy_mps, &speed.turn_radps}) {
+      *number = in.takeFinite();
+      requireContents(std::abs(*number) <= kObjectSpeedMax, "an object is too fast");
+    }
   }
 }
 

@@ -129,7 +129,8 @@ ReadingsSelection decode(const v1::FrameRequest& in, std::size_t robots) {
 void encode(const ChangedObjects& changed, const std::vector<WorldObject>& sent, v1::Frame& out) {
   const std::vector<WorldObject> none;
   const auto& objects = changed.orThose(none);
-  if (const auto moved = movedBetween(sent, objects)) {
+  const auto moved = changed.areChanged() ? movedBetween(sent, objects) : std::nullopt;
+  if (moved) {
     for (const auto i : *moved) {
       const auto& pose = objects[i].body.world_from_body;
       v1::ObjectPlace& place = *out.add_moved_objects();

@@ -19,6 +19,9 @@ WorldObject PlacementReader::readPrimitive(XmlReader& primitive, Place place) {
     object.name = place == Place::given ? readName(*solid) : solid->word("name");
     object.body = readBody(*solid, world_.unit_m, place == Place::given);
     readMotion(*solid, world_.unit_m, object);
+    if (place != Place::given && object.door) {
+      solid->error("is a door, which has its place in a wall; give it in an <object>");
+    }
     solid->finish();
   } else {
     primitive.error("contains neither a <cylinder> nor a <cube>; add one");
