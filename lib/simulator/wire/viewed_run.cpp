@@ -95,8 +95,11 @@ void moveObjects(const google::protobuf::RepeatedPtrField<v1::ObjectPlace>& plac
   std::vector<WorldObject> objects = run.snapshot.objects.orThose(run.world.world.objects);
   for (const v1::ObjectPlace& place : places) {
     if (place.object() >= objects.size()) throw WireError("a frame with an object that the world does not have");
-    objects[place.object()].body.world_from_body = {checkedFinite(place.x_m()), checkedFinite(place.y_m()),
-                                                    checkedFinite(place.phi_rad())};
+    const mrpt::math::TPose2D at(place.x_m(), place.y_m(), place.phi_rad());
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.phi)) {
+      throw WireError("a frame with an object whose place is not finite");
+    }
+    objects[place.object()].body.world_from_body = at;
   }
   run.snapshot.objects = ChangedObjects(std::move(objects));
 }
