@@ -20,7 +20,7 @@ std::string shipped(const std::string& name) { return ROBOSIM_SOURCE_DIR "/world
 
 struct Settings {
   std::string world;
-  std::string controller = "";
+  std::string controller = {};
   int steps = 100;
   std::vector<std::string> observers = {};
   std::vector<TimedChange> timeline = {};
@@ -321,7 +321,7 @@ std::vector<std::string> refusalsOf(
       DistributedRun run(group, std::move(world), options, distribution);
     } catch (const ConfigError& error) {
       const std::lock_guard lock(mutex);
-      errors.push_back(error.what());
+      errors.emplace_back(error.what());
     }
   });
   return errors;

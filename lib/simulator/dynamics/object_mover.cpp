@@ -28,10 +28,10 @@ struct ObjectMover::Search {
   const Scene& scene;
   std::span<const Path> paths;
   std::span<const ObjectMotion> objects;
-  std::vector<std::uint8_t> moves_;  ///< by robot; paths change while groups are computed
-  std::vector<double> door_shares;   ///< by object: to which a door is to be open at the end
-  double speed_max_mps = 0;          ///< of all bodies at the start of the step
-  double reach_m = 0;                ///< no object moves farther
+  std::vector<std::uint8_t> robot_moves;  ///< by robot; paths change while groups are computed
+  std::vector<double> door_shares;        ///< by object: to which a door is to be open at the end
+  double speed_max_mps = 0;               ///< of all bodies at the start of the step
+  double reach_m = 0;                     ///< no object moves farther
   double path_max_m = 0;
   Sets sets;
   std::vector<std::uint8_t> is_member;  ///< by body: an object that may move, or a robot that such a one may block
@@ -47,7 +47,7 @@ struct ObjectMover::Search {
         sets(the_paths.size() + the_objects.size()),
         is_member(the_paths.size() + the_objects.size()) {
     for (const auto& path : paths) {
-      moves_.push_back(path.clippedLength() != 0 ? 1 : 0);
+      robot_moves.push_back(path.clippedLength() != 0 ? 1 : 0);
       path_max_m = std::max(path_max_m, std::abs(path.clippedLength()));
       // A clipped robot drives as fast as another, until it stops.
       if (path.clippedLength() != 0) speed_max_mps = std::max(speed_max_mps, std::abs(path.length_m) / period_s);
@@ -97,7 +97,7 @@ struct ObjectMover::Search {
   bool isRobot(std::uint32_t body) const { return body < paths.size(); }
   std::uint32_t bodyOf(std::size_t object) const { return robotCount() + static_cast<std::uint32_t>(object); }
   const MovableBody& object(std::uint32_t body) const { return of.bodies_[body - paths.size()]; }
-  bool moves(std::uint32_t robot) const { return moves_[robot] != 0; }
+  bool moves(std::uint32_t robot) const { return robot_moves[robot] != 0; }
   TPoint2D centerOf(std::uint32_t body) const {
     if (isRobot(body)) return startOf(paths[body]);
     const auto& pose = objects[body - paths.size()].world_from_object;

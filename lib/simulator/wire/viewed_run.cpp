@@ -69,8 +69,7 @@ Readings& takeReadings(ViewedRun& run, std::size_t robot) {
   auto& spare = run.spare_readings[robot];
   if (readings) return *readings;
   if (!spare) return readings.emplace(blankReadings(*run.world.fleet.robots[robot].info.sensors));
-  readings = std::move(spare);
-  spare.reset();
+  readings = std::exchange(spare, std::nullopt);
   return *readings;
 }
 
@@ -183,8 +182,7 @@ bool update(ViewedRun& run, const v1::Frame& frame) {
   snapshot.time_s = frame.time_s();
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
     auto& readings = snapshot.robots[i].readings;
-    if (readings) run.spare_readings[i] = std::move(readings);
-    readings.reset();
+    if (readings) run.spare_readings[i] = std::exchange(readings, std::nullopt);
   }
   for (const auto& robot : frame.robots()) {
     checkRobot(robot.world_robot(), run);
