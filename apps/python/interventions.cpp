@@ -34,9 +34,11 @@ void add(Simulation& simulation, const py::str& name, decltype(Body::shape) shap
   intervene(simulation, added);
 }
 
-std::optional<Movable> movableOf(std::optional<double> mass_kg, double friction, double restitution) {
-  if (!mass_kg) return std::nullopt;
-  return Movable{*mass_kg, friction, restitution};
+std::optional<Movable> movableOf(std::optional<double> mass_kg, std::optional<double> friction,
+                                 std::optional<double> restitution) {
+  if (mass_kg) return Movable{*mass_kg, friction.value_or(Movable().friction), restitution.value_or(0)};
+  if (!friction && !restitution) return std::nullopt;
+  throw std::invalid_argument("friction and restitution are of objects that robots push; give mass_kg, too");
 }
 
 }  // namespace
@@ -61,32 +63,31 @@ void bindInterventions(py::class_<Simulation, std::shared_ptr<Simulation>>& simu
           "add_cylinder",
           [](Simulation& of, const py::str& name, double x, double y, double radius_m, double height_m,
              std::optional<double> z_m, const Color& color, double heat_celsius, double reflectivity,
-             std::optional<double> mass_kg, double friction, double restitution) {
+             std::optional<double> mass_kg, std::optional<double> friction, std::optional<double> restitution) {
             add(of, name, Cylinder{radius_m}, {x, y, 0}, height_m, z_m, color, heat_celsius, reflectivity,
                 movableOf(mass_kg, friction, restitution));
           },
           py::arg("name"), py::arg("x"), py::arg("y"), py::arg("radius_m"), py::arg("height_m") = 1.0,
           py::arg("z_m") = py::none(), py::arg("color") = grey, py::arg("heat_celsius") = 0.0,
           py::arg("reflectivity") = kReflectivity, py::kw_only(), py::arg("mass_kg") = py::none(),
-          py::arg("friction") = Movable().friction, py::arg("restitution") = Movable().restitution,
+          py::arg("friction") = py::none(), py::arg("restitution") = py::none(),
           "Adds an upright cylinder at x, y [m]. z_m: height of its centre; None: it stands on the ground.\n\nWith "
-          "mass_kg, robots push it: friction is its coefficient on the floor (of rolling for a ball), restitution the "
-          "share of "
-          "the speed with which it leaves a collision, [0, 1]. Raises ValueError if it would overlap something, or the "
+          "mass_kg, robots push it: friction is its coefficient on the floor (of rolling for a ball; None: 0.5), "
+          "restitution the share of the speed with which it leaves a collision, [0, 1] (None: 0). Raises ValueError if "
+          "it would overlap something, or the "
           "name is taken.")
       .def(
           "add_box",
           [](Simulation& of, const py::str& name, double x, double y, double length_m, double width_m, double height_m,
              double heading, std::optional<double> z_m, const Color& color, double heat_celsius, double reflectivity,
-             std::optional<double> mass_kg, double friction, double restitution) {
+             std::optional<double> mass_kg, std::optional<double> friction, std::optional<double> restitution) {
             add(of, name, Cube{length_m, width_m}, {x, y, heading}, height_m, z_m, color, heat_celsius, reflectivity,
                 movableOf(mass_kg, friction, restitution));
           },
           py::arg("name"), py::arg("x"), py::arg("y"), py::arg("length_m"), py::arg("width_m"),
           py::arg("height_m") = 1.0, py::arg("heading") = 0.0, py::arg("z_m") = py::none(), py::arg("color") = grey,
           py::arg("heat_celsius") = 0.0, py::arg("reflectivity") = kReflectivity, py::kw_only(),
-          py::arg("mass_kg") = py::none(), py::arg("friction") = Movable().friction,
-          py::arg("restitution") = Movable().restitution,
+          py::arg("mass_kg") = py::none(), py::arg("friction") = py::none(), py::arg("restitution") = py::none(),
           "Adds an upright box at x, y [m], whose length is along heading [rad]; otherwise as add_cylinder().")
       .def(
           "change",

@@ -54,6 +54,8 @@ class InterventionTest(unittest.TestCase):
             for call, fault in (
                     (lambda: simulation.place("R3", 0, 0), "'R3' is not the name of a robot or an object; did you mean R1?"),
                     (lambda: simulation.place("R1", 4, 0.3), "'R1' would overlap 'Gold'; choose another place"),
+                    (lambda: simulation.add_box("soft", 5, 5, 1, 1, friction=0.2),
+                     "friction and restitution are of objects that robots push; give mass_kg, too"),
                     (lambda: simulation.add_cylinder("Gold", 5, 5, 1),
                      "there is a robot or an object named 'Gold' already; use another name"),
                     (lambda: simulation.change("Gold"),

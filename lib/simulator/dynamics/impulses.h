@@ -15,7 +15,7 @@ class Impulses {
   Impulses(const PushingGroup& group, const Island& island, const GroupMoment& from,
            const std::vector<mrpt::math::TPoint2D>& robots_to, double duration_s);
 
-  /// Changes the speeds of objects. None of them has more energy afterwards than robots have given.
+  /// Changes the speeds of objects. Impulses among objects and stationary solids never increase their energy.
   /// @param pushing set to 1 for each pair that has exchanged impulses
   /// @param pushed set to 1 for each object that has got one
   void exchange(std::vector<ObjectMotion>& objects, std::vector<std::uint8_t>& pushing,

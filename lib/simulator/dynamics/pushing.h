@@ -51,7 +51,7 @@ struct PushingGroup {
 ///     robots drive are blocked for the rest of the step, and the part is repeated;
 ///  5. if bodies overlap nevertheless, because objects are wedged, the part is halved, up to kHalvings times. Then
 ///  robots
-///     and objects that touch each other there stay where they are.
+///     and objects that push each other there stay where they are.
 class Pushing {
  public:
   /// Longest part of a step [s].

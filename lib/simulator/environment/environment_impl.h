@@ -4,7 +4,6 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -107,22 +106,19 @@ struct Environment::Impl {
 
   const std::vector<WorldObject>& objects() const { return state.objects.orThose(model->world.objects); }
 
-  void noteMotions() {
-    motions.clear();
-    if (movingObjects(objects()).size() != state.object_speeds.size()) {
-      throw std::invalid_argument(
-          "a state whose moving objects are not those of its world; use a state of the same world");
-    }
-    for (const auto i : movingObjects(objects())) {
-      const WorldObject& object = objects()[i];
-      ObjectMotion& motion =
-          motions.emplace_back(ObjectMotion{state.object_speeds[motions.size()], object.body.world_from_body});
-      if (object.door) {
-        motion.open_to = object.door->open_to;
-        motion.door_share = object.door->share;
-      }
-    }
-  }
+  /// @name Objects that move (moving_objects.cpp)
+  ///@{
+  /// After State::objects or State::object_speeds were replaced.
+  void noteMotions();
+  /// After State::objects were replaced by a list of other objects.
+  void useObjects();
+  /// Moves objects, and stops robots that they block, after the authorisation of moves.
+  void moveObjects();
+  /// @param changed name of the object that is another or elsewhere: it is at rest then
+  void setObjects(std::vector<WorldObject> objects, const std::string& changed);
+  /// Speeds of a list of objects: those that objects of the same names have now.
+  std::vector<ObjectSpeed> speedsOf(const std::vector<WorldObject>& objects_then, const std::string& at_rest) const;
+  ///@}
 
   void placeBodies() { bodies.place(state, motions, known, share.kept, workers); }
 
@@ -170,25 +166,6 @@ struct Environment::Impl {
     };
     state.stalls += workers.reduce(counted.end - counted.begin, std::uint64_t{0}, stalls_of, std::plus<>());
     placeBodies();
-  }
-
-  void moveObjects() {
-    if (!object_mover.move(scene, workers, model->period_s, paths, motions)) return;
-    for (std::size_t i = 0; i < paths.size(); ++i) state.stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
-    const std::vector<std::uint32_t> moving = movingObjects(objects());
-    bool have_moved = false;
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-      state.object_speeds[k] = motions[k];
-      have_moved |= objects()[moving[k]].body.world_from_body != motions[k].world_from_object;
-    }
-    if (!have_moved) return;
-    std::vector<WorldObject> moved = objects();
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-      WorldObject& object = moved[moving[k]];
-      object.body.world_from_body = motions[k].world_from_object;
-      if (object.door) object.door->share = motions[k].door_share;
-    }
-    state.objects = ChangedObjects(std::move(moved));
   }
 
   RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
@@ -262,37 +239,6 @@ struct Environment::Impl {
     ++pose_changes;
     noteAbsentRobots();
     placeBodies();
-  }
-
-  /// @param changed their name: it is at rest then
-  void setObjects(std::vector<WorldObject> objects, const std::string& changed) {
-    state.object_speeds = speedsOf(objects, changed);
-    state.objects = ChangedObjects(std::move(objects));
-    ++pose_changes;
-    useObjects();
-    noteMotions();
-    placeBodies();
-  }
-
-  /// Speeds of a list of objects: those that objects of the same names have now.
-  std::vector<ObjectSpeed> speedsOf(const std::vector<WorldObject>& objects_then, const std::string& at_rest) const {
-    std::map<std::string, ObjectSpeed> now;
-    const auto& objects_now = objects();
-    std::size_t k = 0;
-    for (const auto object : movingObjects(objects_now)) now[objects_now[object].name] = state.object_speeds[k++];
-    now.erase(at_rest);
-    std::vector<ObjectSpeed> speeds;
-    for (const auto object : movingObjects(objects_then)) {
-      const auto found = now.find(objects_then[object].name);
-      speeds.push_back(found == now.end() ? ObjectSpeed{} : found->second);
-    }
-    return speeds;
-  }
-
-  /// After State::objects were replaced.
-  void useObjects() {
-    bodies.setObjects(objects());
-    object_mover = ObjectMover(bodies.movable(), ofRobots(fleet, pushingDiscOf), model->world.bounds);
   }
 
   void remove(std::span<const std::size_t> robots) {
