@@ -24,13 +24,13 @@ void intervene(Simulation& simulation, Change change) {
   if (!fault.empty()) throw std::invalid_argument(fault);
 }
 
-void add(Simulation& simulation, const py::str& name, decltype(Body::shape) shape, const mrpt::math::TPose2D& pose,
-         double height_m, std::optional<double> z_m, const Color& color, double heat_celsius, double reflectivity,
-         const std::optional<Movable>& movable) {
+void add(Simulation& simulation, const py::str& name, const decltype(Body::shape)& shape,
+         const mrpt::math::TPose2D& pose, double height_m, std::optional<double> z_m, const Color& color,
+         double heat_celsius, double reflectivity, const std::optional<Movable>& movable) {
   AddObject added;
   added.object.movable = movable;
   added.object.name = toBytes(name);
-  added.object.body = {std::move(shape), pose, z_m.value_or(height_m / 2), height_m, color, heat_celsius, reflectivity};
+  added.object.body = {shape, pose, z_m.value_or(height_m / 2), height_m, color, heat_celsius, reflectivity};
   intervene(simulation, added);
 }
 
