@@ -53,8 +53,16 @@ class LocalRunView final : public ViewSource {
   void step() override { is_paused_ = has_single_step_ = true; }
   double speed() const override { return speed_; }
   void setSpeed(double speed) override { speed_ = speed; }
+  std::string whyUnchangeable() const override { return isOver() ? "the run is over" : ""; }
+  void change(const Change& change) override {
+    answers_.push_back(run_.environment().apply({kAuthor, change}));
+    if (answers_.back().empty()) snapshot_ = takeSnapshot(run_.environment());
+  }
+  std::vector<std::string> takeAnswers() override { return std::exchange(answers_, {}); }
 
  private:
+  static constexpr const char* kAuthor = "view";  ///< of interventions
+
   void take() {
     if (isOver()) return;
     run_.step();
@@ -85,6 +93,7 @@ class LocalRunView final : public ViewSource {
   RunPaths paths_;
   double speed_;
   double due_s_ = 0;  ///< simulated time that is due, but not yet taken
+  std::vector<std::string> answers_;
   bool is_paused_ = false, has_single_step_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include "client/viewer.h"
 #include "rendering/snapshot_run.h"
 #include "viewing/run_operator.h"
+#include "viewing/run_supervisor.h"
 #include "viewing/view_source.h"
 
 namespace robosim {
@@ -16,6 +17,7 @@ class EnvironmentView final : public ViewSource {
  public:
   explicit EnvironmentView(const ConnectOptions& connect_options)
       : connect_options_(connect_options),
+        supervisor_(connect_options_),
         viewer_(connect_options_, ReadingsSelection{.of_all = true, .of = {}}),
         world_(viewer_.run().world),
         snapshot_(viewer_.run().snapshot) {
@@ -66,6 +68,9 @@ class EnvironmentView final : public ViewSource {
   void step() override { operator_->step(); }
   double speed() const override { return operator_ ? operator_->speed() : 1; }
   void setSpeed(double speed) override { operator_->setSpeed(speed); }
+  std::string whyUnchangeable() const override { return isOver() ? "the run is over" : supervisor_.refusal(); }
+  void change(const Change& change) override { supervisor_.request(change); }
+  std::vector<std::string> takeAnswers() override { return supervisor_.takeAnswers(); }
   void requestReadings(const std::vector<std::uint8_t>& robots) override {
     ReadingsSelection request{.of_all = robots.empty(), .of = {}};
     for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -104,6 +109,7 @@ class EnvironmentView final : public ViewSource {
   }
 
   ConnectOptions connect_options_;
+  RunSupervisor supervisor_;
   Viewer viewer_;
   LoadedWorld world_;
   int world_number_ = 0;

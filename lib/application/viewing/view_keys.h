@@ -3,6 +3,9 @@
 
 namespace robosim {
 
+/// GLFW's code of the modifier, which nanogui forwards.
+inline constexpr int kControl = 2;
+
 /// A key or mouse action of the window, and its meaning.
 struct ViewKey {
   const char* key;

@@ -29,7 +29,7 @@ void HelpPanel::draw(NVGcontext* context) {
   const float lines = static_cast<float>(viewKeys().size());
   // As large as the window permits.
   const float line_px = std::min(24 * scale_, static_cast<float>(height()) / (lines + 2));
-  const float width_px = 19 * line_px, height_px = (lines + 1) * line_px;
+  const float width_px = 21 * line_px, height_px = (lines + 1) * line_px;
   const float left = static_cast<float>(position().x()) + (static_cast<float>(width()) - width_px) / 2;
   const float top = static_cast<float>(position().y()) + (static_cast<float>(height()) - height_px) / 2;
   fillPanel(context, left, top, width_px, height_px, nvgRGBA(25, 30, 38, 235));
@@ -42,7 +42,7 @@ void HelpPanel::draw(NVGcontext* context) {
     nvgText(context, left + line_px, y, key, nullptr);
     nvgFontFace(context, "sans");
     nvgFillColor(context, nvgRGB(240, 243, 247));
-    nvgText(context, left + 6 * line_px, y, meaning, nullptr);
+    nvgText(context, left + 7 * line_px, y, meaning, nullptr);
     y += line_px;
   }
 }

@@ -15,6 +15,7 @@
 #include "rendering/run_paths.h"
 #include "robots/run_snapshot.h"
 #include "robots/world_source.h"
+#include "world/intervention.h"
 
 namespace robosim {
 
@@ -67,6 +68,19 @@ class ViewSource {
   /// that was set during recording leaves gaps of years.
   /// @param speed recorded seconds per second
   virtual double pastGap(double time_s, double /*speed*/) const { return time_s; }
+  ///@}
+
+  /// @name Changes of a run from outside
+  ///@{
+  /// Why the source cannot be changed from here; empty if it can, as far as is known.
+  virtual std::string whyUnchangeable() const {
+    return "only a run can be changed: one of 'robosim run --view', or a served one";
+  }
+  /// Requests a change before the next step. @pre whyUnchangeable() is empty
+  virtual void change(const Change&) {}
+  /// The answers since the last call, in the order of the requests: why a change was refused; empty for one that has
+  /// been made.
+  virtual std::vector<std::string> takeAnswers() { return {}; }
   ///@}
 
   /// Selects the robots whose readings are shown: flags by robot; empty for all.

@@ -14,6 +14,7 @@
 #include "base/seconds.h"
 #include "base/text_table.h"
 #include "viewing/picture_widget.h"
+#include "viewing/view_keys.h"
 #include "viewing/view_outputs.h"
 #include "viewing/view_panels.h"
 
@@ -42,7 +43,7 @@ class ViewWindow final : public nanogui::Screen {
     theme->mStandardFontSize = static_cast<int>(16 * scale_);
     theme->mButtonFontSize = static_cast<int>(16 * scale_);
     setTheme(theme);
-    picture_ = new PictureWidget(this, source_, drawing_, [this] { fail(); });
+    picture_ = new PictureWidget(this, source_, drawing_, scale_, [this] { fail(); });
     addBar();
     banner_ = new Banner(this, scale_);
     help_ = new HelpPanel(this, scale_);
@@ -220,7 +221,8 @@ class ViewWindow final : public nanogui::Screen {
   bool keyboardEvent(int key, int scancode, int action, int modifiers) override {
     // Key repeat applies to seeking, but not to toggles.
     const bool is_wanted = action == kPressed || (action == kRepeated && (key == kLeft || key == kRight));
-    return (is_wanted && handle(key)) || Screen::keyboardEvent(key, scancode, action, modifiers);
+    return (is_wanted && handle(key, (modifiers & kControl) != 0)) ||
+           Screen::keyboardEvent(key, scancode, action, modifiers);
   }
   /// '?' is on different keys in different keyboard layouts.
   bool keyboardCharacterEvent(unsigned codepoint) override {
@@ -229,7 +231,7 @@ class ViewWindow final : public nanogui::Screen {
     return true;
   }
 
-  bool handle(int key) {
+  bool handle(int key, bool with_control) {
     switch (key) {
       case ' ':
         togglePause();
@@ -268,6 +270,12 @@ class ViewWindow final : public nanogui::Screen {
       case 'C':
         toggle(drawing_.panes().look().camera_inset);
         break;
+      case 'Z':
+        if (!with_control) return false;
+        [[fallthrough]];
+      case 'U':
+        picture_->dragging().undo();
+        break;
       case 'H':
       case kF1:
         toggleHelp();
@@ -276,6 +284,10 @@ class ViewWindow final : public nanogui::Screen {
         toggleFullScreen();
         break;
       case kEscape:
+        if (picture_->dragging().isDragging()) {
+          picture_->dragging().cancel();
+          break;
+        }
         if (help_->visible()) {
           help_->setVisible(false);
           break;

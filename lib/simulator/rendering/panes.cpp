@@ -143,6 +143,19 @@ cv::Mat Panes::draw(const RunSnapshot& snapshot, const RunPaths& paths) {
   return picture;
 }
 
+CameraInfo Panes::airCamera(std::size_t pane) const {
+  const cv::Rect rect = rectOf(pane);
+  CameraInfo camera;
+  camera.width_px = static_cast<std::uint32_t>(rect.width);
+  camera.height_px = static_cast<std::uint32_t>(rect.height);
+  camera.field_of_view_rad = panes_[pane].air.field_of_view_rad;
+  return camera;
+}
+
+TPose3D Panes::worldFromAirCamera(const Pane& pane, const RunSnapshot& snapshot) const {
+  return pane.air.worldFromCamera(pane.follow ? &snapshot.robots[*pane.follow].world_from_robot : nullptr);
+}
+
 cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const RunPaths& paths) {
   const Pane& pane = panes_[index];
   const cv::Rect rect = rectOf(index);
@@ -152,12 +165,8 @@ cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const Ru
     if (picture.size() != rect.size()) cv::resize(picture, picture, rect.size(), 0, 0, cv::INTER_LINEAR);
     return picture;
   }
-  CameraInfo camera;
-  camera.width_px = static_cast<std::uint32_t>(rect.width);
-  camera.height_px = static_cast<std::uint32_t>(rect.height);
-  camera.field_of_view_rad = pane.air.field_of_view_rad;
-  const TPose2D* ridden = pane.follow ? &snapshot.robots[*pane.follow].world_from_robot : nullptr;
-  const TPose3D world_from_camera = pane.air.worldFromCamera(ridden);
+  const CameraInfo camera = airCamera(index);
+  const TPose3D world_from_camera = worldFromAirCamera(pane, snapshot);
   const bool has_overlay = !snapshot.robots.empty() && (layers_.paths || layers_.sensors || layers_.names ||
                                                         snapshot.robots.size() > DetailLevel::kManyRobots);
   DepthBuffer depth;
@@ -228,19 +237,31 @@ std::vector<std::uint8_t> Panes::requestedReadings() const {
   return wanted;
 }
 
-Pane* Panes::paneAt(const TPoint2D& at, TPoint2D& pixel_in_pane) {
+std::optional<std::size_t> Panes::paneAt(const TPoint2D& at) const {
   for (std::size_t i = 0; i < panes_.size(); ++i) {
-    const cv::Rect rect = rectOf(i);
-    if (!rect.contains({static_cast<int>(at.x), static_cast<int>(at.y)})) continue;
-    pixel_in_pane = {(at.x - rect.x) / look_.scale, (at.y - rect.y) / look_.scale};
-    return &panes_[i];
+    if (rectOf(i).contains({static_cast<int>(at.x), static_cast<int>(at.y)})) return i;
   }
-  return nullptr;
+  return std::nullopt;
+}
+
+Pane* Panes::findPane(const TPoint2D& at, TPoint2D& pixel_in_pane) {
+  const auto index = paneAt(at);
+  if (!index) return nullptr;
+  const cv::Rect rect = rectOf(*index);
+  pixel_in_pane = {(at.x - rect.x) / look_.scale, (at.y - rect.y) / look_.scale};
+  return &panes_[*index];
+}
+
+PaneProjection Panes::projection(std::size_t pane, const RunSnapshot& snapshot) const {
+  const cv::Rect rect = rectOf(pane);
+  const TPoint2D corner(rect.x, rect.y);
+  if (!panes_[pane].is_3d) return {TopView::groundView(snapshot, panes_[pane].top), corner, look_.scale};
+  return {airCamera(pane), worldFromAirCamera(panes_[pane], snapshot), corner};
 }
 
 void Panes::drag(const TPoint2D& at, const TPoint2D& by_px, Drag how) {
   TPoint2D pixel_in_pane;
-  Pane* const pane = paneAt(at, pixel_in_pane);
+  Pane* const pane = findPane(at, pixel_in_pane);
   if (!pane) return;
   if (!pane->is_3d) {
     pane->top.center += TPoint2D(-by_px.x, by_px.y) * (1 / (pane->top.px_per_m * look_.scale));
@@ -263,7 +284,7 @@ void Panes::drag(const TPoint2D& at, const TPoint2D& by_px, Drag how) {
 
 void Panes::zoom(const TPoint2D& at, double factor) {
   TPoint2D pixel_in_pane;
-  Pane* const pane = paneAt(at, pixel_in_pane);
+  Pane* const pane = findPane(at, pixel_in_pane);
   if (!pane) return;
   if (pane->is_3d) {
     pane->air.distance_m = std::clamp(pane->air.distance_m / factor, 0.3, 1e5);
@@ -275,7 +296,7 @@ void Panes::zoom(const TPoint2D& at, double factor) {
 
 void Panes::click(const TPoint2D& at, const RunSnapshot& snapshot) {
   TPoint2D pixel_in_pane;
-  Pane* const pane = paneAt(at, pixel_in_pane);
+  Pane* const pane = findPane(at, pixel_in_pane);
   if (!pane || pane->is_3d) return;
   const auto robot = TopView::robotAt(pixel_in_pane, snapshot, fleet_, pane->top);
   if (!robot && !pane->follow) return;

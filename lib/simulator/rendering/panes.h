@@ -8,6 +8,7 @@
 
 #include "hardware/sensor_info.h"
 #include "rendering/depth_buffer.h"
+#include "rendering/pane_projection.h"
 #include "rendering/run_paths.h"
 #include "rendering/top_view.h"
 
@@ -71,6 +72,10 @@ class Panes {
   /// Follows the robot at a pixel; stops following if there is none.
   void click(const mrpt::math::TPoint2D& at, const RunSnapshot& snapshot);
   ///@}
+  /// The pane at a pixel; nullopt between panes.
+  std::optional<std::size_t> paneAt(const mrpt::math::TPoint2D& at) const;
+  /// How a pane shows the world at present.
+  PaneProjection projection(std::size_t pane, const RunSnapshot& snapshot) const;
   /// All panes: shows the whole world, and follows no robot.
   void showAll();
   /// All panes: follows the next robot that is present.
@@ -78,7 +83,9 @@ class Panes {
 
  private:
   cv::Rect rectOf(std::size_t pane) const;
-  Pane* paneAt(const mrpt::math::TPoint2D& at, mrpt::math::TPoint2D& pixel_in_pane);
+  Pane* findPane(const mrpt::math::TPoint2D& at, mrpt::math::TPoint2D& pixel_in_pane);
+  CameraInfo airCamera(std::size_t pane) const;
+  mrpt::math::TPose3D worldFromAirCamera(const Pane& pane, const RunSnapshot& snapshot) const;
   cv::Mat drawPane(std::size_t index, const RunSnapshot& snapshot, const RunPaths& paths);
   void fit(Pane& pane, std::size_t index) const;
   void setTopSize(Pane& pane, std::size_t index) const;
