@@ -186,8 +186,14 @@ std::uint64_t Simulation::advance(std::uint64_t steps_max) {
 void Simulation::observe() {
   const State& state = environment().state();
   if (!recording_) return;
-  recording_->write(state.readings, state.world_from_robot, state.commands,
-                    notesBefore(state, state.time.step, is_new_recording_));
+  const auto notes = notesBefore(state, state.time.step, is_new_recording_);
+  std::vector<TopicMessage> messages;
+  if (world_topics_) {
+    const auto winner = state.winner();
+    messages = world_topics_->of(state.objects, notes, winner ? environment().fleet().robots[*winner].info.name : "",
+                                 nanosecondsOf(state.time.seconds()));
+  }
+  recording_->write(state.readings, state.world_from_robot, state.commands, notes, messages);
   is_new_recording_ = false;
 }
 
@@ -205,6 +211,12 @@ void Simulation::record(const std::filesystem::path& file) {
   RunNote note = makeNote(world_->source, *run_, options_, elsewhere_);
   recording_ =
       std::make_unique<RawlogWriter>(file, robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
+  world_topics_.reset();
+  if (auto* const mcap = recording_->mcap()) {
+    world_topics_ = std::make_unique<WorldTopics>(environment().model());
+    const State& state = environment().state();
+    world_topics_->begin(*mcap, note, state.objects, nanosecondsOf(state.time.seconds()));
+  }
   recorded_ = std::make_unique<RunNote>(std::move(note));
   is_new_recording_ = true;
   observe();
@@ -223,6 +235,7 @@ void Simulation::stopRecording() {
   // Equal runs give equal files.
   for (const char* of_the_clock : {"wall_s", "real_time_factor"}) recorded_->outcome.erase(of_the_clock);
   const State& state = environment().state();
+  if (auto* const mcap = ended->mcap()) WorldTopics::end(*mcap, *recorded_);
   ended->close(recorded_->text(), notesBefore(state, state.time.step + 1, false));
 }
 

@@ -16,6 +16,7 @@
 #include "recording/rawlog_writer.h"
 #include "run/local_run.h"
 #include "run/outputs/run_note.h"
+#include "run/outputs/world_topics.h"
 
 namespace robosim {
 
@@ -111,8 +112,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   std::map<std::string, std::size_t> index_;
   std::map<std::string, std::vector<std::unique_ptr<ObservationLayout>>> layouts_;
   std::unique_ptr<RawlogWriter> recording_;
-  std::unique_ptr<RunNote> recorded_;  ///< the recording's note
-  bool is_new_recording_ = false;      ///< no step of it has been written
+  std::unique_ptr<RunNote> recorded_;          ///< the recording's note
+  std::unique_ptr<WorldTopics> world_topics_;  ///< of a recording that is an MCAP file
+  bool is_new_recording_ = false;              ///< no step of it has been written
   std::atomic<bool> engine_runs_ = false;
   bool is_in_step_ = false;
   bool is_closed_ = false;

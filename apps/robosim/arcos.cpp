@@ -104,7 +104,10 @@ void addArcos(CLI::App& program) {
   command->add_option("--speed", a->serve.of_run.speed, "simulated seconds per second")
       ->type_name("X")
       ->capture_default_str();
-  command->add_option("--record", a->serve.of_run.record, "record the run as an MRPT rawlog to this file")
+  command
+      ->add_option("--record", a->serve.of_run.record,
+                   "record the run to this file, as an MRPT rawlog or, if it ends in .mcap, as "
+                   "MCAP with topics of ROS 2")
       ->type_name("FILE")
       ->check(fileName());
   command->add_option("--listen", a->serve.listen, "host:port for viewers and control panels")

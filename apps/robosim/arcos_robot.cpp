@@ -139,7 +139,11 @@ void addArcosRobotOptions(CLI::App& command, RobotArguments& arguments) {
   command.add_option("--laser", arguments.laser, "serial device of a SICK LMS200 on the robot, as in /dev/ttyUSB1")
       ->type_name("DEVICE")
       ->group("A real robot");
-  command.add_option("--record", arguments.record, "record the readings of --arcos as an MRPT rawlog to this file")
+  command
+      .add_option("--record", arguments.record,
+                  "record the readings of --arcos to this file, as an MRPT rawlog or, if it ends in .mcap, as MCAP "
+                  "with topics of "
+                  "ROS 2")
       ->type_name("FILE")
       ->check(fileName())
       ->group("A real robot");

@@ -174,6 +174,7 @@ const std::vector<Format>& formats() {
       {".pdf", "the same", makePlan, RecordingFormat::picture},
       {".csv", "of a rawlog: one row per robot and step, with all values", {}, RecordingFormat::csv},
       {".npz", "of a rawlog: NumPy's arrays, for each robot and sensor", {}, RecordingFormat::npz},
+      {".mcap", "of a rawlog of RoboSim: topics of ROS 2, for ros2 bag and Foxglove", {}, RecordingFormat::mcap},
   };
   return all;
 }
@@ -332,10 +333,10 @@ void addExport(CLI::App& program) {
   command
       ->add_option("WORLD", arguments->world,
                    "world file or map file; or a rawlog, recorded by RoboSim or another program, for .csv, .npz, .png, "
-                   ".svg and .pdf")
+                   ".svg and .pdf, and an .mcap of RoboSim")
       ->transform(inputFile([] {
         std::vector<FileKind> kinds = kWorldKinds;
-        kinds.push_back(FileKind::rawlog);
+        kinds.insert(kinds.end(), kRecordingKinds.begin(), kRecordingKinds.end());
         return kinds;
       }()))
       ->type_name("FILE")

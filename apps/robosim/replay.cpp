@@ -43,7 +43,9 @@ ReplayResult replay(ReplayArguments arguments) {
 void addReplay(CLI::App& program) {
   auto* command = addSubcommand(program, "replay");
   auto a = std::make_shared<ReplayArguments>();
-  command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog, recorded by RoboSim or another program")
+  command
+      ->add_option("RAWLOG", a->rawlog,
+                   "an MRPT rawlog, recorded by RoboSim or another program, or an .mcap of RoboSim")
       ->transform(inputFile(kRecordingKinds))
       ->type_name("FILE")
       ->required();

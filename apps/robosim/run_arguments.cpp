@@ -18,7 +18,10 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
   addRandomStartsOption(command, a.changes);
   addNoiseOption(command, a.changes);
   addSeedOption(command, a.run.environment.seed, "seed of all random numbers: noise, random starts, controllers");
-  auto* record = command.add_option("--record", a.record, "record the run as an MRPT rawlog to this file")
+  auto* record = command
+                     .add_option("--record", a.record,
+                                 "record the run to this file, as an MRPT rawlog or, if it ends in .mcap, as "
+                                 "MCAP with topics of ROS 2")
                      ->type_name("FILE")
                      ->check(fileName())
                      ->group(kRecordingGroup);

@@ -133,7 +133,7 @@ void view(ViewArguments a) {
   if (const auto file = findDataFile(a.source)) {
     a.source = file->string();
     std::vector<FileKind> kinds = kWorldKinds;
-    kinds.push_back(FileKind::rawlog);
+    kinds.insert(kinds.end(), kRecordingKinds.begin(), kRecordingKinds.end());
     requireKind(*file, kinds);
     requireNameOfKind(*file);
   }
@@ -230,7 +230,8 @@ void addView(CLI::App& program) {
   }
   dependsOn(command->get_option("--seed"), "a world or a map as SOURCE", [a] {
     const auto file = findDataFile(a->source);
-    return file && kindOfFile(*file) != FileKind::rawlog;
+    return file &&
+           std::find(kRecordingKinds.begin(), kRecordingKinds.end(), kindOfFile(*file)) == kRecordingKinds.end();
   });
   Rows keys;
   for (const auto& [key, meaning] : viewKeys()) keys.push_back({"  " + std::string(key), meaning});

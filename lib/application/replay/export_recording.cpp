@@ -11,6 +11,7 @@
 #include "base/text_table.h"
 #include "rendering/picture_format.h"
 #include "replay/csv_field.h"
+#include "replay/mcap_export.h"
 #include "replay/npz_writer.h"
 #include "replay/read_recording.h"
 #include "replay/recording_table.h"
@@ -37,7 +38,10 @@ class ExportProgress {
 RecordingContents contentsOf(const std::string& rawlog, const std::vector<RecordingOutput>& outs,
                              ExportProgress& progress) {
   RecordingParts parts{.table = false, .figure = false};
-  for (const auto& out : outs) (out.format == RecordingFormat::picture ? parts.figure : parts.table) = true;
+  for (const auto& out : outs) {
+    if (out.format == RecordingFormat::mcap) continue;
+    (out.format == RecordingFormat::picture ? parts.figure : parts.table) = true;
+  }
   RecordingContents read = readRecording(rawlog, parts, [&](std::uint64_t entries) {
     progress.at([&] { return "reading: " + withCommas(entries) + " entries …"; });
   });
@@ -140,12 +144,27 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
 
 bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
                      const FigurePage& page, const TopViewLayers& layers) {
-  std::vector<std::unique_ptr<AtomicFile>> files;
-  files.reserve(outs.size());
-  for (const auto& out : outs) files.push_back(std::make_unique<AtomicFile>(out.file));
+  std::vector<std::unique_ptr<AtomicFile>> files;  // null for MCAP
+  for (const auto& out : outs) {
+    const bool is_mcap = out.format == RecordingFormat::mcap;
+    files.push_back(is_mcap ? nullptr : std::make_unique<AtomicFile>(out.file));
+  }
   ExportProgress progress(interrupt);
+  std::vector<McapExport> mcaps;
+  for (const auto& out : outs) {
+    if (out.format != RecordingFormat::mcap) continue;
+    mcaps.push_back(exportMcap(rawlog, out.file, [&](std::uint64_t steps) {
+      progress.at([&] { return "MCAP: " + withCommas(steps) + " steps …"; });
+    }));
+  }
+  if (mcaps.size() == outs.size()) {
+    if (mcaps[0].read_error) logWarning("export", *mcaps[0].read_error);
+    for (const auto& mcap : mcaps) mcap.file->commit();
+    return !mcaps[0].is_damaged;
+  }
   const RecordingContents contents = contentsOf(rawlog, outs, progress);
   for (std::size_t i = 0; i < outs.size(); ++i) {
+    if (!files[i]) continue;
     switch (outs[i].format) {
       case RecordingFormat::csv:
         writeCsv(*contents.table, *files[i], progress);
@@ -153,6 +172,8 @@ bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
       case RecordingFormat::npz:
         writeNpz(*contents.table, *files[i], progress);
         break;
+      case RecordingFormat::mcap:
+        break;  // above
       case RecordingFormat::picture:
         progress.at([] { return "drawing …"; });
         files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file), page, layers));
@@ -160,7 +181,10 @@ bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
     }
     files[i]->finish();
   }
-  for (auto& file : files) file->commit();
+  for (auto& file : files) {
+    if (file) file->commit();
+  }
+  for (const auto& mcap : mcaps) mcap.file->commit();
   return !contents.is_damaged;
 }
 

@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "recording/mcap_recording.h"
 #include "recording/observation_writer.h"
 #include "recording/rawlog_reader.h"
 #include "replay/replay.h"
@@ -13,6 +14,9 @@
 namespace robosim {
 
 ReplayResult writeSelection(const ReplayArguments& arguments) {
+  if (isMcapName(arguments.output)) {
+    throw ConfigError(arguments.output + ": a selection is written as a rawlog; use a name that ends in .rawlog");
+  }
   const Interrupt interrupt;
   RawlogReader reader(arguments.rawlog);
   ObservationWriter writer(arguments.output, reader.pictureFolder());

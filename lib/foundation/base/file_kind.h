@@ -19,6 +19,7 @@ enum class FileKind {
   picture,     ///< PNG, PGM, PPM or PBM
   activmedia,  ///< 2D-Map
   rawlog,      ///< MRPT's
+  mcap,
   // Of other programs:
   bmp,
   jpeg,
@@ -28,7 +29,6 @@ enum class FileKind {
   simple_map,
   scene_3d,
   rosbag,
-  mcap,
   sqlite,
   zip,
   pdf,
@@ -38,7 +38,7 @@ enum class FileKind {
 ///@{
 inline const std::vector<FileKind> kWorldKinds{FileKind::world, FileKind::gridmap, FileKind::ros_yaml,
                                                FileKind::picture, FileKind::activmedia};
-inline const std::vector<FileKind> kRecordingKinds{FileKind::rawlog};
+inline const std::vector<FileKind> kRecordingKinds{FileKind::rawlog, FileKind::mcap};
 ///@}
 
 /// Kind of a file with these first bytes, decompressed; a few kilobytes suffice.

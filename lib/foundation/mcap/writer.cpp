@@ -47,7 +47,7 @@ std::uint16_t Writer::addChannel(Channel channel) {
   return channels_.back().channel.id;
 }
 
-std::size_t Writer::beginMessage(std::uint16_t id, std::uint64_t time_ns) {
+std::vector<std::uint8_t>& Writer::beginMessage(std::uint16_t id, std::uint64_t time_ns) {
   ChannelState& state = channels_.at(id);
   if (!std::exchange(state.is_written, true)) {
     const std::uint16_t schema = state.channel.schema_id;
@@ -60,16 +60,22 @@ std::size_t Writer::beginMessage(std::uint16_t id, std::uint64_t time_ns) {
   has_messages_ = true;
   ++state.messages;
   RecordWriter writer(records_);
-  const std::size_t begin = writer.begin(Opcode::message);
+  message_ = writer.begin(Opcode::message);
   writer.u16(id);
   writer.u32(state.sequence++);
   writer.u64(time_ns);  // of recording
   writer.u64(time_ns);  // of publishing
-  return begin;
+  return records_;
 }
 
-void Writer::endMessage(std::size_t begin) {
-  RecordWriter(records_).end(begin);
+void Writer::write(std::uint16_t channel, std::uint64_t time_ns, std::span<const std::uint8_t> data) {
+  auto& bytes = beginMessage(channel, time_ns);
+  bytes.insert(bytes.end(), data.begin(), data.end());
+  endMessage();
+}
+
+void Writer::endMessage() {
+  RecordWriter(records_).end(message_);
   if (records_.size() >= chunk_bytes_) writeChunk();
 }
 

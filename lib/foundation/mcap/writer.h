@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -33,18 +32,10 @@ class Writer {
   /// Id for messages. @param channel without id @throws std::length_error beyond 65,535
   std::uint16_t addChannel(Channel channel);
 
-  /// Appends a message. @param append appends its data to the bytes that it is given
-  template <typename Append>
-  requires std::invocable < Append, std::vector<std::uint8_t>
-  & > void write(std::uint16_t channel, std::uint64_t time_ns, const Append& append) {
-    const std::size_t begin = beginMessage(channel, time_ns);
-    append(records_);
-    endMessage(begin);
-  }
-  void write(std::uint16_t channel, std::uint64_t time_ns, std::span<const std::uint8_t> data) {
-    write(channel, time_ns,
-          [&](std::vector<std::uint8_t>& bytes) { bytes.insert(bytes.end(), data.begin(), data.end()); });
-  }
+  void write(std::uint16_t channel, std::uint64_t time_ns, std::span<const std::uint8_t> data);
+  /// Begins a message. @returns the bytes to which its data is appended; endMessage() follows
+  std::vector<std::uint8_t>& beginMessage(std::uint16_t channel, std::uint64_t time_ns);
+  void endMessage();
   void attach(const Attachment& attachment);
   void addMetadata(const Metadata& metadata);
 
@@ -65,8 +56,6 @@ class Writer {
   };
   struct Packer;
 
-  std::size_t beginMessage(std::uint16_t channel, std::uint64_t time_ns);
-  void endMessage(std::size_t begin);
   void writeChunk();
   void put(std::span<const std::uint8_t> bytes);
   void writeSummary();
@@ -76,6 +65,7 @@ class Writer {
   std::unique_ptr<Packer> packer_;
   std::uint64_t position_ = 0;         ///< in the file
   std::vector<std::uint8_t> records_;  ///< of the present chunk
+  std::size_t message_ = 0;            ///< where the message of beginMessage() begins in records_
   std::vector<std::uint8_t> packed_;   ///< reused
   std::uint64_t chunk_start_ns_ = 0, chunk_end_ns_ = 0;
   bool has_messages_ = false;  ///< in the present chunk

@@ -1,9 +1,6 @@
 #include "recording/gzip_file.h"
 
 #include <cassert>
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include <isa-l/igzip_lib.h>
@@ -11,8 +8,6 @@
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
-
-#include "recording/recording_error.h"
 
 namespace robosim {
 namespace {
@@ -43,15 +38,12 @@ struct GzipFile::Compressor {
   std::uint8_t out[64 * 1024];
 };
 
-GzipFile::GzipFile(const std::filesystem::path& file)
-    : file_(std::in_place, file, AtomicFile::IfKilled::keep_part),
-      path_(file_->path()),
-      compressor_(std::make_unique<Compressor>()) {}
+GzipFile::GzipFile(const std::filesystem::path& file) : file_(file), compressor_(std::make_unique<Compressor>()) {}
 
 GzipFile::~GzipFile() = default;
 
 void GzipFile::write(std::span<const std::uint8_t> bytes) {
-  checkOpen();
+  file_.checkOpen();
   assert(!is_finished_);
   static_assert(kMaxPiece <= UINT32_MAX, "ISA-L counts bytes in 32 bits");
   for (; bytes.size() > kMaxPiece; bytes = bytes.subspan(kMaxPiece)) compress(bytes.first(kMaxPiece), false);
@@ -59,19 +51,14 @@ void GzipFile::write(std::span<const std::uint8_t> bytes) {
 }
 
 void GzipFile::finish() {
-  checkOpen();
+  file_.checkOpen();
   if (!std::exchange(is_finished_, true)) compress({}, true);
-  check([this] { file_->finish(); });
+  file_.finish();
 }
 
 void GzipFile::commit() {
   finish();
-  check([this] { file_->commit(); });
-  file_.reset();
-}
-
-void GzipFile::checkOpen() const {
-  if (!file_) throw RecordingError(path_.string() + ": this recording has been closed or discarded");
+  file_.commit();
 }
 
 void GzipFile::compress(std::span<const std::uint8_t> bytes, bool last) {
@@ -85,27 +72,8 @@ void GzipFile::compress(std::span<const std::uint8_t> bytes, bool last) {
     [[maybe_unused]] const int status = isal_deflate(&stream);
     assert(status == COMP_OK);
     clearVectorRegisters();
-    const auto* const begin = reinterpret_cast<const char*>(compressor_->out);
-    file_->write({begin, static_cast<std::size_t>(stream.next_out - compressor_->out)});
-    if (file_->error() != 0) fail();
+    file_.write({compressor_->out, static_cast<std::size_t>(stream.next_out - compressor_->out)});
   } while (stream.avail_out == 0);
-}
-
-template <typename Act>
-void GzipFile::check(const Act& act) {
-  try {
-    act();
-  } catch (const std::runtime_error&) {
-    fail();
-  }
-}
-
-void GzipFile::fail() {
-  const int error = file_->error();
-  file_.reset();
-  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  throw RecordingError(path_.string() + ": the recording could not be written: " + std::strerror(error) +
-                       (full ? "; free disk space, or record elsewhere" : "; record elsewhere"));
 }
 
 }  // namespace robosim

@@ -2,15 +2,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 
-#include "base/atomic_file.h"
+#include "recording/recording_file.h"
 
 namespace robosim {
 
-/// A gzip file over an AtomicFile: it appears under its name only when it is complete. A killed program leaves the
-/// .part behind, readable up to its end.
+/// A gzip file: it appears under its name only when it is complete. A killed program leaves the .part behind, readable
+/// up to its end.
 ///
 /// Compressed by Intel's ISA-L at level 0, the fastest. Every write to the disk is checked; MRPT's CFileGZOutputStream
 /// does not check the last one.
@@ -36,19 +35,13 @@ class GzipFile {
   /// @throws RecordingError as write() does.
   void commit();
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return file_.path(); }
 
  private:
   struct Compressor;
   void compress(std::span<const std::uint8_t> bytes, bool last);
-  void checkOpen() const;
-  /// Calls act(), and fail() if the file cannot be written.
-  template <typename Act>
-  void check(const Act& act);
-  [[noreturn]] void fail();
 
-  std::optional<AtomicFile> file_;  ///< nullopt when committed or discarded
-  std::filesystem::path path_;
+  RecordingFile file_;
   std::unique_ptr<Compressor> compressor_;
   bool is_finished_ = false;
 };

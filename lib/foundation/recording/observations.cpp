@@ -49,7 +49,7 @@ double secondsSinceStart(mrpt::Clock::time_point timestamp) {
 }
 
 RobotObservations::RobotObservations(const RobotInfo& robot, PictureFolder* pictures)
-    : sensors_(robot.sensors), pictures_(pictures) {
+    : sensors_(robot.sensors), pictures_(pictures), readings_before_(robot.sensors) {
   for (std::size_t i = 0; i < sensors_->size(); ++i) slots_.push_back(i);
   std::stable_partition(slots_.begin(), slots_.end(),
                         [&](std::size_t i) { return (*sensors_)[i].kind == SensorKind::odometry; });
@@ -72,17 +72,7 @@ RobotObservations::RobotObservations(const RobotInfo& robot, PictureFolder* pict
 
 void RobotObservations::forget() {
   kept_.assign(sensors_->size(), 0);
-  last_.clear();
-  for (const auto& sensor : *sensors_) last_.push_back(blankMeasurement(sensor));
-}
-
-bool RobotObservations::isKept(std::size_t slot, const Readings& readings) {
-  const MeasurementTimes& times = (*sensors_)[slot].times;
-  if (times.rate_hz == 0) return false;
-  const Measurement& measurement = readings.measurements[slot];
-  if (!times.isDue(readings.time) && measurement == last_[slot]) return true;
-  last_[slot] = measurement;
-  return false;
+  readings_before_.forget();
 }
 
 std::span<const CObservation::Ptr> RobotObservations::of(const Readings& readings,
@@ -98,7 +88,7 @@ std::span<const CObservation::Ptr> RobotObservations::of(const Readings& reading
     CObservation& observation = *observations_[1 + i];
     const Measurement& measurement = readings.measurements[slots_[i]];
     if (!std::visit([](const auto& kind) { return isPresent(kind); }, measurement)) continue;
-    kept_[slots_[i]] = isKept(slots_[i], readings) ? 1 : 0;
+    kept_[slots_[i]] = readings_before_.isKept(slots_[i], readings) ? 1 : 0;
     if (kept_[slots_[i]]) continue;
     observation.timestamp = timestamp;
     codecs_[i]->fill(observation, (*sensors_)[slots_[i]], measurement, readings.laser_pan_rad);

@@ -15,6 +15,7 @@
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
 #include "recording/byte_archive.h"
+#include "recording/kept_readings.h"
 #include "recording/picture_folder.h"
 #include "recording/serialized_template.h"
 
@@ -59,7 +60,6 @@ class RobotObservations {
   void forget();
 
  private:
-  bool isKept(std::size_t slot, const Readings& readings);
   void saveExternally(JpegObservation& picture, const std::string& stem, const SimTime& time);
   void fillGroundTruth(const mrpt::math::TPose2D& world_from_robot, mrpt::Clock::time_point timestamp);
   void makeTemplates();
@@ -70,11 +70,11 @@ class RobotObservations {
   std::vector<std::size_t> slots_;                          ///< index in RobotInfo::sensors of observations_[1 + i]
   std::vector<mrpt::obs::CObservation::Ptr> observations_;  ///< ground truth, and one per sensor
   PictureFolder* pictures_;
-  std::vector<std::string> stems_;                    ///< prefixes of a camera's file names; indexed as observations_
-  std::vector<Measurement> last_;                     ///< by sensor: the last recorded one, if it has a rate
-  std::vector<std::uint8_t> kept_;                    ///< by sensor
-  std::vector<std::size_t> present_;                  ///< indices of the observations of this step
-  std::vector<mrpt::obs::CObservation::Ptr> result_;  ///< the observations of this step
+  std::vector<std::string> stems_;  ///< prefixes of a camera's file names; indexed as observations_
+  KeptReadings readings_before_;
+  std::vector<std::uint8_t> kept_;                            ///< by sensor
+  std::vector<std::size_t> present_;                          ///< indices of the observations of this step
+  std::vector<mrpt::obs::CObservation::Ptr> result_;          ///< the observations of this step
   std::vector<std::optional<SerializedTemplate>> templates_;  ///< indexed as observations_; for a pan angle of 0
   std::array<double, 12> ground_truth_{};                     ///< as MRPT writes it: x, y, z, 3 × 3 rotation
 };

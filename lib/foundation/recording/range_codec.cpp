@@ -3,10 +3,10 @@
 
 #include <mrpt/obs/CObservationRange.h>
 
+#include "hardware/scan_geometry.h"
 #include "recording/codecs.h"
 #include "recording/cone_aperture.h"
 #include "recording/echo_ranges.h"
-#include "recording/scan_geometry.h"
 
 namespace robosim {
 namespace {

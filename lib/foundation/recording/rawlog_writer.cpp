@@ -17,6 +17,7 @@
 #include "base/worker_thread.h"
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
+#include "recording/mcap_recording.h"
 #include "recording/observations.h"
 #include "recording/picture_folder.h"
 #include "recording/robot_status_record.h"
@@ -48,15 +49,30 @@ struct RobotSerializer {
 };
 
 struct Output {
-  explicit Output(const std::filesystem::path& path) : file(path), pictures(path) {}
-
-  void flush(std::size_t from_bytes) {
-    if (archive.bytes.size() < from_bytes) return;
-    file.write(archive.bytes);
-    archive.bytes.clear();
+  Output(const std::filesystem::path& path, std::span<const RobotInfo> robots, const SimTime& start) : pictures(path) {
+    if (isMcapName(path)) {
+      mcap.emplace(path, robots, nanosecondsOf(start.seconds()));
+    } else {
+      gzip.emplace(path);
+    }
   }
 
-  GzipFile file;
+  const std::filesystem::path& path() const { return mcap ? mcap->path() : gzip->path(); }
+  /// Of a rawlog, writes what it has if it is enough; of an MCAP file, all as a message.
+  void flush(std::size_t from_bytes, const SimTime& time) {
+    if (archive.bytes.size() < (mcap ? 1 : from_bytes)) return;
+    if (mcap) {
+      mcap->writeRawlog(archive.bytes, nanosecondsOf(time.seconds()));
+    } else {
+      gzip->write(archive.bytes);
+    }
+    archive.bytes.clear();
+  }
+  void finish() { mcap ? mcap->finish() : gzip->finish(); }
+  void commit() { mcap ? mcap->commit() : gzip->commit(); }
+
+  std::optional<GzipFile> gzip;  ///< one of both
+  std::optional<McapRecording> mcap;
   PictureFolder pictures;
   ByteArchive archive;
 };
@@ -113,6 +129,7 @@ struct RawlogWriter::Impl {
     std::vector<TPose2D> world_from_robot;
     std::vector<Command> commands;
     std::vector<std::string> comments;
+    std::vector<TopicMessage> messages;
   };
 
   void submitBatch();
@@ -138,7 +155,10 @@ void RawlogWriter::Impl::submitBatch() {
 }
 
 void RawlogWriter::Impl::record(const Step& step) {
-  for (const auto& text : step.comments) comment(text, step.readings.empty() ? SimTime() : step.readings[0].time);
+  const SimTime time = step.readings.empty() ? SimTime() : step.readings[0].time;
+  for (const auto& text : step.comments) comment(text, time);
+  auto& mcap = outputs[0]->mcap;
+  if (mcap) outputs[0]->flush(0, time);  // the comments, which precede the step
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
     RobotSerializer& serializer = serializers[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
@@ -153,11 +173,17 @@ void RawlogWriter::Impl::record(const Step& step) {
       if (command) {
         serializer.status_record.write(step.readings[i], *command, archive, serializer.observations.kept());
       }
+      if (mcap && !isAbsent(command)) {
+        mcap->write(i, step.readings[i], truth, command, serializer.observations.kept());
+      }
     } else {
       appendPair(serializer, step.readings[i], truth, command, outputs[i]->archive);
     }
   }
-  for (auto& output : outputs) output->flush(kChunkBytes);
+  for (auto& output : outputs) output->flush(kChunkBytes, time);
+  if (!mcap) return;
+  for (const auto& message : step.messages) mcap->write(message);
+  mcap->writeClock(nanosecondsOf(time.seconds()));
 }
 
 /// @pre called by the worker thread, or while it is idle
@@ -188,6 +214,12 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
   impl_->last = start;
+  if (isMcapName(file) && format != RawlogFormat::observations) {
+    throw ConfigError(file.string() + ": an MCAP file has no sensory frames; record observations, or a .rawlog");
+  }
+  if (isMcapName(file) && images != RawlogImages::embedded) {
+    throw ConfigError(file.string() + ": an MCAP file has all pictures; record them embedded, or a .rawlog");
+  }
   impl_->filling.resize(std::max<std::size_t>(1, kReadingsPerBatch / std::max<std::size_t>(1, robots.size())));
   impl_->recording = impl_->filling;
   for (const auto& robot : robots) {
@@ -200,7 +232,8 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
                         "one, or record observations only");
     }
   }
-  for (const auto& path : filesFor(file, robots, format)) impl_->outputs.push_back(std::make_unique<Output>(path));
+  for (const auto& path : filesFor(file, robots, format))
+    impl_->outputs.push_back(std::make_unique<Output>(path, robots, start));
   for (std::size_t i = 0; i < robots.size(); ++i) {
     Output& output = *impl_->outputs[format == RawlogFormat::observations ? 0 : i];
     impl_->serializers.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
@@ -211,7 +244,8 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
 RawlogWriter::~RawlogWriter() = default;
 
 void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot,
-                         std::span<const Command> commands, std::span<const std::string> comments) {
+                         std::span<const Command> commands, std::span<const std::string> comments,
+                         std::span<const TopicMessage> messages) {
   assert(readings.size() == impl_->serializers.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
   assert(commands.empty() || commands.size() == readings.size());
@@ -220,8 +254,17 @@ void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPo
   step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   step.commands.assign(commands.begin(), commands.end());
   step.comments.assign(comments.begin(), comments.end());
+  step.messages.assign(messages.begin(), messages.end());
   if (!readings.empty()) impl_->last = readings[0].time;
   if (impl_->filled == impl_->filling.size()) impl_->submitBatch();
+}
+
+bool RawlogWriter::isMcap() const { return impl_->outputs[0]->mcap.has_value(); }
+
+McapRecording* RawlogWriter::mcap() {
+  impl_->worker.wait();
+  auto& mcap = impl_->outputs[0]->mcap;
+  return mcap ? &*mcap : nullptr;
 }
 
 void RawlogWriter::close(const std::string& note, std::span<const std::string> comments) {
@@ -229,10 +272,10 @@ void RawlogWriter::close(const std::string& note, std::span<const std::string> c
   impl_->worker.wait();
   for (const auto& text : comments) impl_->comment(text, impl_->last);
   impl_->comment(note, impl_->last);
-  for (auto& output : impl_->outputs) output->flush(0);
+  for (auto& output : impl_->outputs) output->flush(0, impl_->last);
   // No older file is replaced before all files are on the disk.
-  for (auto& output : impl_->outputs) output->file.finish();
-  for (auto& output : impl_->outputs) output->file.commit();
+  for (auto& output : impl_->outputs) output->finish();
+  for (auto& output : impl_->outputs) output->commit();
   for (auto& output : impl_->outputs) output->pictures.commit();
 }
 
@@ -248,7 +291,7 @@ std::vector<std::filesystem::path> RawlogWriter::pathsOf(const std::filesystem::
 
 std::vector<std::filesystem::path> RawlogWriter::files() const {
   std::vector<std::filesystem::path> files;
-  for (const auto& output : impl_->outputs) files.push_back(output->file.path());
+  for (const auto& output : impl_->outputs) files.push_back(output->path());
   return files;
 }
 

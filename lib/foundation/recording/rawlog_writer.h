@@ -10,8 +10,11 @@
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
+#include "topics/topic.h"
 
 namespace robosim {
+
+class McapRecording;
 
 enum class RawlogFormat {
   observations,    ///< a row of observations, MRPT's own form today; one file for all robots
@@ -25,7 +28,9 @@ enum class RawlogImages {
   external,  ///< in separate files, in the folder "<stem>_Images" beside it
 };
 
-/// Records a run as an MRPT rawlog (doc/rawlog.md) of stock observations, in MRPT's format and gzip compression.
+/// Records a run as an MRPT rawlog (doc/rawlog.md) of stock observations, in MRPT's format and gzip compression; or, in
+/// a file whose name ends in ".mcap", as an MCAP file with the topics of ROS 2 and the content of the rawlog
+/// (McapRecording).
 ///
 /// A step's observations are written robot by robot, in the constructor's order; for each robot ground truth, odometry,
 /// the other sensors in their order, then RobotStatusRecord. Of a pair, the action is the odometry's increment since
@@ -42,7 +47,8 @@ class RawlogWriter {
   /// @param note first entry of each file, a CObservationComment (with sensory_frames, in a separate pair); empty for
   ///        none
   /// @param start time of the note
-  /// @throws ConfigError when a file cannot be created, or a robot has no odometry for its actions.
+  /// @throws ConfigError when a file cannot be created, a robot has no odometry for its actions, or an MCAP file is to
+  ///         have sensory frames or external images
   RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
                RawlogFormat format = RawlogFormat::observations, RawlogImages images = RawlogImages::embedded,
                const std::string& note = "", const SimTime& start = {});
@@ -54,9 +60,14 @@ class RawlogWriter {
   /// @param world_from_robot true pose of each robot; empty if unknown.
   /// @param commands executed by the robots in this step; empty if unknown.
   /// @param comments texts that precede the step's observations, each as a CObservationComment
+  /// @param messages of further topics of an MCAP file
   /// @throws RecordingError when the disk is full or fails. An earlier file of that name is unchanged.
   void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
-             std::span<const Command> commands = {}, std::span<const std::string> comments = {});
+             std::span<const Command> commands = {}, std::span<const std::string> comments = {},
+             std::span<const TopicMessage> messages = {});
+  /// The MCAP file, for what is not of a step; null for a rawlog. Valid until the next call. @throws as write()
+  McapRecording* mcap();
+  bool isMcap() const;
   /// Finishes the recording, and renames it to its name.
   /// @param note last entry of each file; empty for none
   /// @param comments texts that precede the note

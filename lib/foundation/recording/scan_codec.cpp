@@ -2,9 +2,9 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
+#include "hardware/scan_geometry.h"
 #include "recording/codecs.h"
 #include "recording/echo_ranges.h"
-#include "recording/scan_geometry.h"
 
 namespace robosim {
 namespace {

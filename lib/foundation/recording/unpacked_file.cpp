@@ -4,12 +4,18 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include <zlib.h>
 
+#include "base/error_list.h"
 #include "base/input_file.h"
+#include "mcap/reader.h"
+#include "recording/mcap_recording.h"
 
 namespace robosim {
 namespace {
@@ -27,15 +33,37 @@ struct Checkpoint {
   std::uint64_t packed = 0;           ///< position in the file, of the first byte all of whose bits are needed
   int bits = 0;                       ///< number of bits needed of the byte before it
   bool is_beginning = false;          ///< at the beginning of a gzip member
+  mcap::Reader::Place place{};        ///< of an MCAP file, instead of the position
   std::vector<unsigned char> window;  ///< the preceding decompressed data
 };
 
 }  // namespace
 
-struct UnpackedFile::Impl {
-  explicit Impl(const std::filesystem::path& path) : file(path) {}
+/// The rawlog in an MCAP file (kRawlogTopic).
+class RawlogMessages {
+ public:
+  explicit RawlogMessages(const std::filesystem::path& path) : reader_(path) {}
 
+  /// Appends the bytes of the next message of the topic; none at the end.
+  std::span<const std::uint8_t> next() {
+    while (const auto message = reader_.next()) {
+      if (reader_.channels().at(message->channel).topic != kRawlogTopic) continue;
+      if (message->data.size() >= kRawlogDataOffset) return message->data.subspan(kRawlogDataOffset);
+    }
+    return {};
+  }
+  mcap::Reader& reader() { return reader_; }
+
+ private:
+  mcap::Reader reader_;
+};
+
+struct UnpackedFile::Impl {
+  explicit Impl(const std::filesystem::path& path) : name(path), file(path) {}
+
+  std::filesystem::path name;
   InputFile file;
+  std::optional<RawlogMessages> messages;  ///< of an MCAP file
   Access access = Access::sequential;
   bool is_packed = false, has_stream = false;
   z_stream stream{};
@@ -57,6 +85,8 @@ struct UnpackedFile::Impl {
   void open();
   bool fillInput();
   void fill(std::size_t at_least);
+  void openMcap();
+  void takeMessage();
   void copyMore();
   void unpackMore();
   void endMember();
@@ -72,13 +102,49 @@ struct UnpackedFile::Impl {
 
 void UnpackedFile::Impl::open() {
   stream.next_in = input.data();
-  while (stream.avail_in < 2 && fillInput()) {
+  while (stream.avail_in < mcap::kMagic.size() && fillInput()) {
+  }
+  if (std::string_view(reinterpret_cast<const char*>(input.data()), stream.avail_in).starts_with(mcap::kMagic)) {
+    return openMcap();
   }
   is_packed = stream.avail_in >= 2 && input[0] == 0x1f && input[1] == 0x8b;
   if (!is_packed) return;
   has_stream = inflateInit2(&stream, kGzip) == Z_OK;
   if (!has_stream) throw std::bad_alloc();
   addCheckpoint(0, true);
+}
+
+void UnpackedFile::Impl::openMcap() {
+  if (!file.size()) {
+    throw ConfigError(name.string() +
+                      ": is a pipe with an MCAP file, which is read by its index; give the file itself");
+  }
+  messages.emplace(name);
+  takeMessage();
+  if (end > 0 || !fault.empty()) return;
+  throw ConfigError(name.string() + ": is an MCAP file without the topic " + kRawlogTopic +
+                    ", because it was not recorded by RoboSim; convert it to a rawlog");
+}
+
+/// Appends the next message to the output.
+void UnpackedFile::Impl::takeMessage() {
+  const auto bytes = messages->next();
+  if (bytes.empty()) {
+    const auto& reader = messages->reader();
+    return stop(reader.isCutOff() ? kCutOff : reader.fault());
+  }
+  const mcap::Reader::Place place = messages->reader().place();
+  if (access == Access::random && (checkpoints.empty() || (checkpoints.back().unpacked < unpacked &&
+                                                           checkpoints.back().place.record != place.record))) {
+    Checkpoint checkpoint;
+    checkpoint.unpacked = unpacked;
+    checkpoint.place = place;
+    checkpoints.push_back(std::move(checkpoint));
+  }
+  if (output.size() < end + bytes.size()) output.resize(end + bytes.size());
+  std::copy(bytes.begin(), bytes.end(), output.begin() + static_cast<std::ptrdiff_t>(end));
+  end += bytes.size();
+  unpacked += bytes.size();
 }
 
 /// Appends more of the file to the remaining input. @returns whether there was more
@@ -104,7 +170,9 @@ void UnpackedFile::Impl::fill(std::size_t at_least) {
     end -= begin;
     begin = 0;
   }
-  while (end - begin < at_least && !is_over) is_packed ? unpackMore() : copyMore();
+  while (end - begin < at_least && !is_over) {
+    messages ? takeMessage() : is_packed ? unpackMore() : copyMore();
+  }
 }
 
 void UnpackedFile::Impl::copyMore() {
@@ -171,7 +239,7 @@ void UnpackedFile::Impl::beginMember() {
 
 void UnpackedFile::Impl::addCheckpoint(int bits, bool is_beginning) {
   if (!checkpoints.empty() && unpacked <= checkpoints.back().unpacked) return;  // already stored
-  Checkpoint checkpoint{unpacked, packedPosition(), bits, is_beginning, {}};
+  Checkpoint checkpoint{unpacked, packedPosition(), bits, is_beginning, {}, {}};
   if (!is_beginning) {
     checkpoint.window.resize(kWindowBytes);
     unsigned size = 0;
@@ -188,6 +256,7 @@ void UnpackedFile::Impl::restore(const Checkpoint& checkpoint) {
   fault.clear();
   begin = end = 0;
   unpacked = checkpoint.unpacked;
+  if (messages) return messages->reader().seek(checkpoint.place);
   stream.avail_in = 0;
   stream.next_in = input.data();
   input_end = from;
@@ -243,7 +312,7 @@ std::uint64_t UnpackedFile::position() const { return impl_->unpacked - (impl_->
 void UnpackedFile::seek(std::uint64_t position) {
   assert(impl_->access == Access::random);
   const std::uint64_t here = this->position();
-  if (!impl_->is_packed) {
+  if (!impl_->is_packed && !impl_->messages) {
     Checkpoint checkpoint;
     checkpoint.unpacked = checkpoint.packed = position;
     if (position < here || position > impl_->unpacked) return impl_->restore(checkpoint);

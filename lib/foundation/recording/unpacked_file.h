@@ -7,7 +7,8 @@
 
 namespace robosim {
 
-/// Reads the bytes of a file, decompressed if it is a gzip file. With random access, it can seek to any byte that was
+/// Reads the bytes of a file, decompressed if it is a gzip file; of an MCAP file of RoboSim, those of the rawlog in it
+/// (McapRecording). With random access, it can seek to any byte that was
 /// read before: about every 4 MiB it stores a checkpoint of 32 KiB from which decompression can continue (as zlib's
 /// examples/zran.c).
 class UnpackedFile {
@@ -15,7 +16,7 @@ class UnpackedFile {
   enum class Access { sequential, random };
 
   /// @param access random: regular files only.
-  /// @throws ConfigError as InputFile does.
+  /// @throws ConfigError as InputFile does, and for an MCAP file without a rawlog or from a pipe.
   explicit UnpackedFile(const std::filesystem::path& file, Access access = Access::sequential);
   ~UnpackedFile();
   UnpackedFile(const UnpackedFile&) = delete;

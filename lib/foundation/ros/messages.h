@@ -70,6 +70,52 @@ struct ColorRGBA {
   bool operator==(const ColorRGBA&) const = default;
 };
 
+struct MultiArrayDimension {
+  std::string label;
+  std::uint32_t size = 0;
+  std::uint32_t stride = 0;  ///< number of elements of this dimension and those after it
+  static constexpr const char* kType = "std_msgs/msg/MultiArrayDimension";
+  static void describe(auto& self, auto&& visit) {
+    visit("label", self.label);
+    visit("size", self.size);
+    visit("stride", self.stride);
+  }
+  bool operator==(const MultiArrayDimension&) const = default;
+};
+
+struct MultiArrayLayout {
+  std::vector<MultiArrayDimension> dim;
+  std::uint32_t data_offset = 0;
+  static constexpr const char* kType = "std_msgs/msg/MultiArrayLayout";
+  static void describe(auto& self, auto&& visit) {
+    visit("dim", self.dim);
+    visit("data_offset", self.data_offset);
+  }
+  bool operator==(const MultiArrayLayout&) const = default;
+};
+
+struct UInt8MultiArray {
+  MultiArrayLayout layout;
+  std::vector<std::uint8_t> data;
+  static constexpr const char* kType = "std_msgs/msg/UInt8MultiArray";
+  static void describe(auto& self, auto&& visit) {
+    visit("layout", self.layout);
+    visit("data", self.data);
+  }
+  bool operator==(const UInt8MultiArray&) const = default;
+};
+
+struct Float64MultiArray {
+  MultiArrayLayout layout;
+  std::vector<double> data;
+  static constexpr const char* kType = "std_msgs/msg/Float64MultiArray";
+  static void describe(auto& self, auto&& visit) {
+    visit("layout", self.layout);
+    visit("data", self.data);
+  }
+  bool operator==(const Float64MultiArray&) const = default;
+};
+
 struct Vector3 {
   double x = 0, y = 0, z = 0;
   static constexpr const char* kType = "geometry_msgs/msg/Vector3";
@@ -312,6 +358,28 @@ struct Temperature {
     visit("variance", self.variance);
   }
   bool operator==(const Temperature&) const = default;
+};
+
+/// A first covariance of -1 means that the quantity is not measured.
+struct Imu {
+  Header header;
+  Quaternion orientation;
+  std::array<double, 9> orientation_covariance{};
+  Vector3 angular_velocity;  ///< [rad/s]
+  std::array<double, 9> angular_velocity_covariance{};
+  Vector3 linear_acceleration;  ///< [m/s²]
+  std::array<double, 9> linear_acceleration_covariance{};
+  static constexpr const char* kType = "sensor_msgs/msg/Imu";
+  static void describe(auto& self, auto&& visit) {
+    visit("header", self.header);
+    visit("orientation", self.orientation);
+    visit("orientation_covariance", self.orientation_covariance);
+    visit("angular_velocity", self.angular_velocity);
+    visit("angular_velocity_covariance", self.angular_velocity_covariance);
+    visit("linear_acceleration", self.linear_acceleration);
+    visit("linear_acceleration_covariance", self.linear_acceleration_covariance);
+  }
+  bool operator==(const Imu&) const = default;
 };
 
 struct CompressedImage {

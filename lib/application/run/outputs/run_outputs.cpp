@@ -87,7 +87,7 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
             .file = arguments.record,
             .format = arguments.rawlog_format == "sf" ? RawlogFormat::sensory_frames : RawlogFormat::observations,
             .images = arguments.record_images == "external" ? RawlogImages::external : RawlogImages::embedded},
-        std::move(robots), std::move(note));
+        std::move(robots), std::move(note), environment.model());
     if (!arguments.is_recorded_on_request) recording_->open();
     refuseOverwriting(inputs, recording_->files());  // format "sf" has a file per robot
   }

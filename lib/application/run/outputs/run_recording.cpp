@@ -9,12 +9,13 @@
 
 namespace robosim {
 
-RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note)
-    : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)) {}
+RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note,
+                           std::shared_ptr<const Model> model)
+    : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)), topics_(std::move(model)) {}
 
 void RunRecording::open() {
   is_requested_ = false;
-  open(options_.file, {});
+  open(options_.file, {}, {});
 }
 
 void RunRecording::openNext(const State& state) {
@@ -23,17 +24,18 @@ void RunRecording::openNext(const State& state) {
   SimTime start = state.time;
   if (last_step_ == start.step) ++start.step;
   is_requested_ = true;
-  open(part(number), start);
+  open(part(number), start, state.objects);
   write(state);
 }
 
-void RunRecording::open(const std::filesystem::path& file, const SimTime& start) {
+void RunRecording::open(const std::filesystem::path& file, const SimTime& start, const ChangedObjects& objects) {
   failure_.clear();
   is_new_part_ = true;
   note_.outcome = nullptr;
   note_.first_step = start.step;
   writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
   previous_file_ = std::exchange(file_, file);
+  if (auto* const mcap = writer_->mcap()) topics_.begin(*mcap, note_, objects, nanosecondsOf(start.seconds()));
   const auto files = writer_->files();
   files_.insert(files_.end(), files.begin(), files.end());
 }
@@ -42,9 +44,14 @@ void RunRecording::write(const State& state) {
   if (!writer_ || last_step_ == state.time.step) return;
   try {
     std::vector<std::string> notes = notesBefore(state, state.time.step, is_new_part_);
+    std::vector<TopicMessage> messages;
+    if (writer_->isMcap()) {
+      const std::string winner = state.winner() ? robots_[*state.winner()].name : "";
+      messages = topics_.of(state.objects, notes, winner, nanosecondsOf(state.time.seconds()));
+    }
     const std::string moved = is_new_part_ || state.object_speeds.empty() ? "" : movedNote(objects_, state.objects);
     if (!moved.empty()) notes.push_back(moved);
-    writer_->write(state.readings, state.world_from_robot, state.commands, notes);
+    writer_->write(state.readings, state.world_from_robot, state.commands, notes, messages);
     is_new_part_ = false;
     objects_ = state.objects;
   } catch (const RecordingError& error) {
@@ -64,6 +71,7 @@ void RunRecording::close(const State& state, const RunSummary& outcome) {
   for (const char* of_the_clock : {"wall_s", "real_time_factor"}) note_.outcome.erase(of_the_clock);
   const auto writer = std::move(writer_);
   try {
+    if (auto* const mcap = writer->mcap()) WorldTopics::end(*mcap, note_);
     writer->close(note_.text(), notesBefore(state, state.time.step + 1, false));
   } catch (...) {
     discard(*writer);

@@ -9,6 +9,7 @@
 #include "environment/environment.h"
 #include "recording/rawlog_writer.h"
 #include "run/outputs/run_note.h"
+#include "run/outputs/world_topics.h"
 #include "run/run_summary.h"
 
 namespace robosim {
@@ -22,8 +23,9 @@ struct RecordingOptions {
 /// Recording of a run, in one or more parts: each start after a stop opens the next file, "run_part2.rawlog".
 class RunRecording {
  public:
-  /// The recording is off until open() or openNext(). @param note of the run, without outcome
-  RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note);
+  /// The recording is off until open() or openNext(). @param note of the run, without outcome @param model of the run
+  RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note,
+               std::shared_ptr<const Model> model);
 
   bool isOn() const { return writer_ != nullptr; }
   /// The current or last part; empty before the first.
@@ -55,7 +57,7 @@ class RunRecording {
   void keep();
 
  private:
-  void open(const std::filesystem::path& file, const SimTime& start);
+  void open(const std::filesystem::path& file, const SimTime& start, const ChangedObjects& objects);
   std::filesystem::path part(int number) const;
   void discard(RawlogWriter& writer);
   bool isFree(const std::filesystem::path& file) const;
@@ -67,6 +69,7 @@ class RunRecording {
   bool is_requested_ = false;             ///< the current or last part is of openNext()
   bool is_new_part_ = false;              ///< no step of the part has been written
   ChangedObjects objects_;                ///< of the step recorded last
+  WorldTopics topics_;                    ///< of an MCAP file
   std::string failure_;
   std::optional<std::uint64_t> last_step_;  ///< recorded
   std::filesystem::path file_, previous_file_;

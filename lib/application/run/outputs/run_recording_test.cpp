@@ -29,7 +29,7 @@ struct RunRecordingTest : TestFolder {
   RunRecording recordingTo(const std::string& name) {
     std::vector<RobotInfo> robots;
     for (const auto& robot : run.environment().fleet().robots) robots.push_back(robot.info);
-    return {{.file = in(name)}, robots, makeNote(source, run, options)};
+    return {{.file = in(name)}, robots, makeNote(source, run, options), run.environment().model()};
   }
   /// Takes and records a number of steps.
   void step(RunRecording& recording, int steps) {

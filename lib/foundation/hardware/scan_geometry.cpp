@@ -1,4 +1,4 @@
-#include "recording/scan_geometry.h"
+#include "hardware/scan_geometry.h"
 
 #include <cmath>
 

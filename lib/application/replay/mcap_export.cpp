@@ -1,0 +1,139 @@
+#include "replay/mcap_export.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/error_list.h"
+#include "recording/kept_readings.h"
+#include "recording/recorded_step.h"
+#include "recording/unpacked_file.h"
+#include "run/outputs/intervention_note.h"
+#include "run/outputs/run_note.h"
+#include "run/outputs/world_topics.h"
+
+namespace robosim {
+namespace {
+
+/// Writes the steps of a recording.
+class McapSteps {
+ public:
+  McapSteps(const std::string& rawlog, const std::filesystem::path& out)
+      : rawlog_(rawlog), out_(out), note_(RunNote::of(rawlog)), bytes_(rawlog) {
+    if (note_.world.text.empty()) {
+      throw ConfigError(rawlog + ": does not contain its world, which is too large; export it as .csv or .npz");
+    }
+    LoadedWorld loaded = loadWorld(note_.world, {});
+    for (const auto& robot : loaded.fleet.robots) robots_.push_back(robot.info);
+    auto model = std::make_shared<Model>();
+    model->world = std::move(loaded.world);
+    model->fleet = std::move(loaded.fleet);
+    model->seed = note_.seed;
+    model->period_s = note_.period_s;
+    model_ = std::move(model);
+    topics_.emplace(model_);
+  }
+
+  McapExport write(const std::function<void(std::uint64_t)>& progress) {
+    RawlogReader reader(rawlog_);
+    RecordedSteps steps(reader, robots_, note_.period_s);
+    std::uint64_t count = 0;
+    while (auto step = steps.next()) {
+      if (!mcap_) open(*step);
+      progress(++count);
+      const std::uint64_t time_ns = nanosecondsOf(step->front().readings.time.seconds());
+      writeBytes(steps.position(), time_ns);
+      writeTopics(*step, steps.comments(), time_ns);
+      last_ns_ = time_ns;
+    }
+    if (!mcap_) throw ConfigError(rawlog_ + ": contains no complete step");
+    writeBytes(RecordedSteps::kEnd, last_ns_);
+    if (auto last = RunNote::parse(steps.note()); last && !last->outcome.is_null()) WorldTopics::end(*mcap_, *last);
+    mcap_->finish();
+    return {std::move(mcap_), reader.readError(), reader.isDamaged()};
+  }
+
+ private:
+  void open(const std::vector<RecordedRobot>& first) {
+    std::vector<RobotInfo> recorded;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (first[i].is_missing) continue;
+      recorded.push_back(robots_[i]);
+      kept_.emplace_back(robots_[i].sensors);
+    }
+    RunNote note = note_;
+    note.outcome = nullptr;
+    const std::uint64_t start_ns = nanosecondsOf(SimTime{note_.first_step, note_.period_s}.seconds());
+    mcap_ = std::make_unique<McapRecording>(out_, recorded, start_ns);
+    topics_->begin(*mcap_, note, {}, start_ns);
+  }
+
+  /// The bytes of the rawlog up to a position.
+  void writeBytes(std::uint64_t end, std::uint64_t time_ns) {
+    constexpr std::size_t kPiece = std::size_t{1} << 26;
+    while (bytes_.position() < end) {
+      std::vector<std::uint8_t> piece(
+          static_cast<std::size_t>(std::min<std::uint64_t>(end - bytes_.position(), kPiece)));
+      piece.resize(bytes_.read(piece.data(), piece.size()));
+      if (piece.empty()) return;
+      mcap_->writeRawlog(piece, time_ns);
+    }
+  }
+
+  void writeTopics(const std::vector<RecordedRobot>& step, const std::vector<std::string>& comments,
+                   std::uint64_t time_ns) {
+    std::vector<std::string> notes;
+    std::string winner;
+    for (const auto& comment : comments) noteChange(comment, notes);
+    std::size_t index = 0;
+    for (const auto& robot : step) {
+      if (robot.is_missing) continue;
+      KeptReadings& kept = kept_[index];
+      if (isAbsent(robot)) {
+        kept.forget();
+      } else {
+        std::vector<std::uint8_t> are_kept;
+        for (std::size_t i = 0; i < robot.readings.measurements.size(); ++i) {
+          are_kept.push_back(kept.isKept(i, robot.readings) ? 1 : 0);
+        }
+        mcap_->write(index, robot.readings, robot.world_from_robot, robot.command, are_kept);
+      }
+      if (!robot.readings.winner.empty()) winner = robot.readings.winner;
+      ++index;
+    }
+    for (const auto& message : topics_->of(objects_, notes, winner, time_ns)) mcap_->write(message);
+    mcap_->writeClock(time_ns);
+  }
+
+  void noteChange(const std::string& comment, std::vector<std::string>& notes) {
+    const auto& before = objects_.orThose(model_->world.objects);
+    if (auto all = objectsIn(comment)) objects_ = std::move(*all);
+    if (auto moved = movedBy(comment, before)) objects_ = std::move(*moved);
+    const auto note = InterventionNote::parse(comment);
+    if (!note) return;
+    notes.push_back(comment);
+    std::vector<WorldObject> after = withChange(before, note->intervention.change);
+    if (after != before) objects_ = ChangedObjects(std::move(after));
+  }
+
+  std::string rawlog_;
+  std::filesystem::path out_;
+  RunNote note_;
+  UnpackedFile bytes_;
+  std::vector<RobotInfo> robots_;
+  std::shared_ptr<const Model> model_;
+  std::unique_ptr<McapRecording> mcap_;
+  std::vector<KeptReadings> kept_;  ///< by recorded robot
+  std::optional<WorldTopics> topics_;
+  ChangedObjects objects_;
+  std::uint64_t last_ns_ = 0;
+};
+
+}  // namespace
+
+McapExport exportMcap(const std::string& rawlog, const std::filesystem::path& out,
+                      const std::function<void(std::uint64_t)>& progress) {
+  return McapSteps(rawlog, out).write(progress);
+}
+
+}  // namespace robosim

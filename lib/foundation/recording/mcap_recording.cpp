@@ -1,0 +1,107 @@
+#include "recording/mcap_recording.h"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "base/error_list.h"
+
+namespace robosim {
+
+/// The messages of a step of a robot.
+class McapRecording::ChannelSink final : public TopicSink {
+ public:
+  ChannelSink(mcap::Writer& writer, const std::vector<std::uint16_t>& channels, std::uint64_t time_ns)
+      : writer_(writer), channels_(channels), time_ns_(time_ns) {}
+
+  std::vector<std::uint8_t>& beginMessage(std::size_t topic) override {
+    return writer_.beginMessage(channels_[topic], time_ns_);
+  }
+  void endMessage() override { writer_.endMessage(); }
+
+ private:
+  mcap::Writer& writer_;
+  const std::vector<std::uint16_t>& channels_;
+  std::uint64_t time_ns_;
+};
+
+bool isMcapName(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".mcap";
+}
+
+McapRecording::McapRecording(const std::filesystem::path& file, std::span<const RobotInfo> robots,
+                             std::uint64_t start_ns)
+    : file_(file), writer_([this](std::span<const std::uint8_t> bytes) { file_.write(bytes); }, {"ros2", "robosim"}) {
+  // rosbag2 reads the numbers of offeredQos() only in files with this record, whose content may be empty.
+  writer_.addMetadata({"rosbag2", {{"serialized_metadata", ""}}});
+  rawlog_ = channelOf({kRawlogTopic, &ros::typeOf<ros::UInt8MultiArray>(), TopicDelivery::steady});
+  clock_ = channelOf({"/clock", &ros::typeOf<ros::Clock>(), TopicDelivery::steady});
+  ros::TFMessage mounts;
+  try {
+    for (const auto& robot : robots) {
+      const RobotTopics& topics = topics_.emplace_back(robot);
+      auto& channels = channels_of_robot_.emplace_back();
+      for (const auto& topic : topics.topics()) channels.push_back(channelOf(topic));
+      mounts.transforms.insert(mounts.transforms.end(), topics.mounts().begin(), topics.mounts().end());
+    }
+  } catch (const std::length_error& error) {
+    throw ConfigError(file.string() + ": has a topic for each sensor of each robot, and " + error.what() +
+                      "; record a .rawlog, or fewer robots");
+  }
+  if (mounts.transforms.empty()) return;
+  for (auto& mount : mounts.transforms) mount.header.stamp = timeOf(start_ns);
+  write(topicMessage("/tf_static", TopicDelivery::latched, start_ns, mounts));
+}
+
+std::uint16_t McapRecording::channelOf(const Topic& topic) {
+  if (const auto known = channels_.find(topic.name); known != channels_.end()) return known->second;
+  auto schema = schemas_.find(topic.type->name);
+  if (schema == schemas_.end()) {
+    const std::uint16_t id = writer_.addSchema({0, topic.type->name, "ros2msg", topic.type->definition()});
+    schema = schemas_.emplace(topic.type->name, id).first;
+  }
+  const std::uint16_t channel =
+      writer_.addChannel({0,
+                          schema->second,
+                          topic.name,
+                          "cdr",
+                          {{"offered_qos_profiles", topic.offeredQos()}, {"topic_type_hash", topic.type->hash()}}});
+  channels_[topic.name] = channel;
+  return channel;
+}
+
+void McapRecording::writeRawlog(std::span<const std::uint8_t> bytes, std::uint64_t time_ns) {
+  auto& message = writer_.beginMessage(rawlog_, time_ns);
+  // As CdrWriter writes UInt8MultiArray, in one copy.
+  ros::CdrWriter writer(message);
+  writer.write(ros::MultiArrayLayout());
+  writer.write(static_cast<std::uint32_t>(bytes.size()));
+  message.insert(message.end(), bytes.begin(), bytes.end());
+  writer_.endMessage();
+}
+
+void McapRecording::writeClock(std::uint64_t time_ns) {
+  ros::encode(ros::Clock{timeOf(time_ns)}, writer_.beginMessage(clock_, time_ns));
+  writer_.endMessage();
+}
+
+void McapRecording::write(std::size_t robot, const Readings& readings,
+                          const std::optional<mrpt::math::TPose2D>& world_from_robot,
+                          const std::optional<Command>& command, std::span<const std::uint8_t> kept) {
+  ChannelSink sink(writer_, channels_of_robot_[robot], nanosecondsOf(readings.time.seconds()));
+  topics_[robot].write(readings, world_from_robot, command, kept, sink);
+}
+
+void McapRecording::write(const TopicMessage& message) {
+  writer_.write(channelOf(message.topic), message.time_ns, message.data);
+}
+
+void McapRecording::finish() {
+  writer_.finish();
+  file_.finish();
+}
+
+}  // namespace robosim

@@ -1,0 +1,75 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/math/TPose3D.h>
+
+#include "hardware/command.h"
+#include "hardware/readings.h"
+#include "hardware/robot_info.h"
+#include "topics/topic.h"
+
+namespace robosim {
+
+/// Takes messages of topics.
+class TopicSink {
+ public:
+  virtual ~TopicSink() = default;
+  /// @param topic index in RobotTopics::topics() @returns the bytes to which the message is appended
+  virtual std::vector<std::uint8_t>& beginMessage(std::size_t topic) = 0;
+  /// The message is complete.
+  virtual void endMessage() = 0;
+};
+
+/// The topics of a robot, below "/<robot>/", and their messages of a step (doc/ros2.md). Frames are "<robot>/odom",
+/// "<robot>/base_link" and "<robot>/<sensor>" (REP 105); ranges follow REP 117.
+class RobotTopics {
+ public:
+  explicit RobotTopics(const RobotInfo& robot);
+
+  const std::vector<Topic>& topics() const { return topics_; }
+  /// Poses of the sensors that do not pan in the robot's frame, for /tf_static.
+  const std::vector<ros::TransformStamped>& mounts() const { return mounts_; }
+  /// Index of /tf in topics(), which all robots have in common.
+  std::size_t transformTopic() const { return transform_; }
+
+  /// Passes the messages of a step to the sink; none of a sensor that keeps its reading.
+  /// @param kept by sensor: whether it does; of no sensor beyond its end
+  void write(const Readings& readings, const std::optional<mrpt::math::TPose2D>& world_from_robot,
+             const std::optional<Command>& command, std::span<const std::uint8_t> kept, TopicSink& sink);
+
+ private:
+  /// What is constant in the messages of a sensor.
+  struct SensorMessages {
+    std::size_t topic = 0;  ///< the first one
+    std::string frame;
+    mrpt::math::TPose3D robot_from_frame;
+    bool is_clockwise = false;           ///< order of the readings
+    std::optional<ros::LaserScan> scan;  ///< of range sensors, or the following
+    std::vector<ros::Range> ranges;      ///< one for each beam
+    ros::CameraInfo camera;
+  };
+  struct Encoder;
+
+  std::size_t addTopic(const std::string& name, const ros::MessageType& type, TopicDelivery delivery);
+  void addSensor(const SensorInfo& sensor);
+  void addRangeSensor(const SensorInfo& sensor, const std::string& part, SensorMessages& made);
+  void addMount(const std::string& frame, const mrpt::math::TPose3D& pose);
+
+  std::string name_, base_frame_, odom_frame_;
+  std::shared_ptr<const std::vector<SensorInfo>> sensors_;
+  std::vector<Topic> topics_;
+  std::vector<ros::TransformStamped> mounts_;
+  std::vector<SensorMessages> of_sensor_;
+  std::size_t transform_ = 0, truth_ = 0, command_ = 0, inbox_ = 0;
+};
+
+/// The pose of a body in plan.
+ros::Pose poseOf(const mrpt::math::TPose2D& pose);
+
+}  // namespace robosim
