@@ -1,6 +1,10 @@
 #include "mcap/records.h"
 
-#include <zlib.h>
+#include <bit>
+
+#include <isa-l/crc.h>
+
+#include "base/vector_registers.h"
 
 namespace robosim::mcap {
 namespace {
@@ -54,7 +58,9 @@ std::map<std::uint16_t, std::uint64_t> RecordReader::numbers() {
 }
 
 void RecordWriter::number(std::uint64_t value, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  static_assert(std::endian::native == std::endian::little, "numbers are copied as they are in memory");
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(&value);
+  bytes_.insert(bytes_.end(), first, first + size);
 }
 
 void RecordWriter::bytes(std::string_view bytes) {
@@ -315,7 +321,9 @@ void append(std::vector<std::uint8_t>& bytes, const Statistics& statistics) {
 }
 
 std::uint32_t crcOf(std::span<const std::uint8_t> bytes, std::uint32_t before) {
-  return static_cast<std::uint32_t>(crc32_z(before, bytes.data(), bytes.size()));
+  const std::uint32_t crc = crc32_gzip_refl(before, bytes.data(), bytes.size());
+  clearVectorRegisters();
+  return crc;
 }
 
 }  // namespace robosim::mcap

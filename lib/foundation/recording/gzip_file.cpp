@@ -5,27 +5,9 @@
 
 #include <isa-l/igzip_lib.h>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include "base/vector_registers.h"
 
 namespace robosim {
-namespace {
-
-/// ISA-L returns with non-zero upper halves of the vector registers, which slow down SSE instructions until they are
-/// cleared: a simulation that recorded in its own thread ran at half its speed.
-#if defined(__x86_64__)
-__attribute__((target("avx"))) void clearUpperHalves() { _mm256_zeroupper(); }
-
-void clearVectorRegisters() {
-  if (__builtin_cpu_supports("avx")) clearUpperHalves();
-}
-#else
-void clearVectorRegisters() {}
-#endif
-
-}  // namespace
-
 struct GzipFile::Compressor {
   Compressor() {
     isal_deflate_init(&stream);

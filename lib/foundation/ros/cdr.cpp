@@ -24,14 +24,7 @@ CdrWriter::CdrWriter(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {
 
 void CdrWriter::write(const std::string& text) {
   write(static_cast<std::uint32_t>(text.size() + 1));
-  append(text.c_str(), text.size() + 1);
-}
-
-void CdrWriter::align(std::size_t size) { bytes_.resize(bytes_.size() + padding(bytes_.size() - origin_, size)); }
-
-void CdrWriter::append(const void* from, std::size_t size) {
-  const auto* const first = static_cast<const std::uint8_t*>(from);
-  bytes_.insert(bytes_.end(), first, first + size);
+  std::memcpy(room(1, text.size() + 1), text.c_str(), text.size() + 1);
 }
 
 CdrReader::CdrReader(std::span<const std::uint8_t> bytes) {

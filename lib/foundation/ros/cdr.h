@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -44,10 +45,7 @@ class CdrWriter {
   void write(bool value) { bytes_.push_back(value ? 1 : 0); }
   template <typename T>
   requires kIsNumber<T>
-  void write(T value) {
-    align(sizeof value);
-    append(&value, sizeof value);
-  }
+  void write(T value) { std::memcpy(room(sizeof value, sizeof value), &value, sizeof value); }
   void write(const std::string& text);
   template <typename T>
   void write(const std::vector<T>& sequence) {
@@ -63,14 +61,18 @@ class CdrWriter {
   template <typename T, std::size_t extent>
   void writeElements(std::span<T, extent> elements) {
     if constexpr (kIsNumber<std::remove_const_t<T>>) {
-      align(sizeof(T));
-      append(elements.data(), elements.size_bytes());
+      std::memcpy(room(sizeof(T), elements.size_bytes()), elements.data(), elements.size_bytes());
     } else {
       for (const auto& element : elements) write(element);
     }
   }
-  void align(std::size_t size);
-  void append(const void* from, std::size_t size);
+  /// Appends room for bytes after zeros up to an aligned place.
+  std::uint8_t* room(std::size_t alignment, std::size_t size) {
+    const std::size_t end = bytes_.size();
+    const std::size_t padding = (origin_ - end) & (alignment - 1);  // modulo a power of two
+    bytes_.resize(end + padding + size);
+    return bytes_.data() + end + padding;
+  }
 
   std::vector<std::uint8_t>& bytes_;
   std::size_t origin_;  ///< position of the byte after the header

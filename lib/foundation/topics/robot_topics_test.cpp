@@ -1,0 +1,235 @@
+#include "topics/robot_topics.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "topics/sensor_topics.h"
+
+namespace robosim {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+
+SensorInfo sensorOf(SensorKind kind, const std::string& label) {
+  SensorInfo sensor;
+  sensor.kind = kind;
+  sensor.label = label;
+  return sensor;
+}
+
+/// A range sensor of beams at these angles, 0.2 m ahead of the robot's centre, from 0.1 to 5 m.
+SensorInfo rangesAt(SensorKind kind, const std::string& label, const std::vector<double>& angles_rad) {
+  SensorInfo sensor = sensorOf(kind, label);
+  for (const double angle_rad : angles_rad) sensor.beams.push_back({{0.2, 0, 0.3, angle_rad, 0, 0}});
+  sensor.range_min_m = 0.1;
+  sensor.range_max_m = 5;
+  sensor.no_echo_m = 5;
+  return sensor;
+}
+
+Echoes echoesAt(const std::vector<float>& ranges_m) {
+  Echoes echoes;
+  for (const float range_m : ranges_m) echoes.push_back({range_m, {range_m, 1, 2}});
+  return echoes;
+}
+
+/// Messages by topic.
+struct Messages final : TopicSink {
+  explicit Messages(const RobotTopics& of) : topics(of.topics()) {}
+  std::vector<std::uint8_t>& beginMessage(std::size_t topic) override { return by_topic[topics.at(topic).name]; }
+  void endMessage() override {}
+
+  template <ros::Message M>
+  M at(const std::string& topic) const {
+    return ros::decode<M>(by_topic.at(topic));
+  }
+
+  const std::vector<Topic>& topics;
+  std::map<std::string, std::vector<std::uint8_t>> by_topic;
+};
+
+struct RobotTopicsTest : testing::Test {
+  Messages messagesOf(const std::vector<SensorInfo>& sensors, const std::vector<Measurement>& measurements) {
+    RobotInfo robot;
+    robot.name = "Ann 2";
+    robot.sensors = std::make_shared<const std::vector<SensorInfo>>(sensors);
+    topics.emplace(robot);
+    readings.time = {15, 0.1};
+    readings.measurements = measurements;
+    Messages messages(*topics);
+    topics->write(readings, truth, command, kept, messages);
+    return messages;
+  }
+
+  std::optional<RobotTopics> topics;
+  Readings readings;
+  std::optional<mrpt::math::TPose2D> truth;
+  std::optional<Command> command;
+  std::vector<std::uint8_t> kept;
+};
+
+TEST_F(RobotTopicsTest, PublishesALaserAsAScanByRep117) {
+  const auto messages = messagesOf({rangesAt(SensorKind::laser, "laser", {-0.5, 0, 0.5})}, {echoesAt({0.1f, 2, 5})});
+  const auto scan = messages.at<ros::LaserScan>("/Ann_2/scan");
+  EXPECT_EQ(scan.header, (ros::Header{{1, 500'000'000}, "Ann_2/laser"}));
+  EXPECT_FLOAT_EQ(scan.angle_min, -0.5f);
+  EXPECT_FLOAT_EQ(scan.angle_max, 0.5f);
+  EXPECT_FLOAT_EQ(scan.angle_increment, 0.5f);
+  EXPECT_EQ(scan.range_min, 0.1f);
+  EXPECT_EQ(scan.range_max, 5);
+  EXPECT_EQ(scan.ranges, (std::vector<float>{-kNothing, 2, kNothing}));
+  ASSERT_EQ(topics->mounts().size(), 1u);
+  EXPECT_EQ(topics->mounts()[0].header.frame_id, "Ann_2/base_link");
+  EXPECT_EQ(topics->mounts()[0].child_frame_id, "Ann_2/laser");
+  EXPECT_EQ(topics->mounts()[0].transform.translation, (ros::Vector3{0.2, 0, 0.3}));
+}
+
+TEST_F(RobotTopicsTest, ReversesAClockwiseScan) {
+  const auto messages = messagesOf({rangesAt(SensorKind::laser, "laser_2", {0.5, 0, -0.5})}, {echoesAt({1, 2, 3})});
+  const auto scan = messages.at<ros::LaserScan>("/Ann_2/scan_2");
+  EXPECT_FLOAT_EQ(scan.angle_min, -0.5f);
+  EXPECT_EQ(scan.ranges, (std::vector<float>{3, 2, 1}));
+}
+
+TEST_F(RobotTopicsTest, PublishesEachSonarAndTheRing) {
+  auto sonar = rangesAt(SensorKind::sonar, "sonar", {0, M_PI / 2});
+  sonar.beam_width_rad = 0.5;
+  const auto messages = messagesOf({sonar}, {echoesAt({2, 5})});
+  const auto first = messages.at<ros::Range>("/Ann_2/sonar/range_0");
+  EXPECT_EQ(first.header.frame_id, "Ann_2/sonar_0");
+  EXPECT_EQ(first.radiation_type, ros::Range::kUltrasound);
+  EXPECT_EQ(first.field_of_view, 0.5f);
+  EXPECT_EQ(first.range, 2);
+  EXPECT_EQ(messages.at<ros::Range>("/Ann_2/sonar/range_1").range, kNothing);
+  const auto cloud = messages.at<ros::PointCloud2>("/Ann_2/sonar/points");
+  EXPECT_EQ(cloud.header.frame_id, "Ann_2/base_link");
+  EXPECT_EQ(cloud.width, 1u);
+  ASSERT_EQ(cloud.data.size(), 12u);
+  float x = 0;
+  std::memcpy(&x, cloud.data.data(), sizeof x);
+  EXPECT_EQ(x, 2);
+  EXPECT_NEAR(topics->mounts()[1].transform.rotation.z, std::sqrt(0.5), 1e-12);
+}
+
+TEST_F(RobotTopicsTest, PublishesOdometryAndItsTransform) {
+  const auto messages = messagesOf({sensorOf(SensorKind::odometry, "odometry")}, {Odometry{{1, 2, M_PI}, 0.5, -0.25}});
+  const auto odometry = messages.at<ros::Odometry>("/Ann_2/odom");
+  EXPECT_EQ(odometry.header.frame_id, "Ann_2/odom");
+  EXPECT_EQ(odometry.child_frame_id, "Ann_2/base_link");
+  EXPECT_EQ(odometry.pose.pose.position, (ros::Point{1, 2, 0}));
+  EXPECT_NEAR(odometry.pose.pose.orientation.z, 1, 1e-12);
+  EXPECT_EQ(odometry.twist.twist.linear.x, 0.5);
+  EXPECT_EQ(odometry.twist.twist.angular.z, -0.25);
+  const auto transforms = messages.at<ros::TFMessage>("/tf").transforms;
+  ASSERT_EQ(transforms.size(), 1u);
+  EXPECT_EQ(transforms[0].header, odometry.header);
+  EXPECT_EQ(transforms[0].child_frame_id, "Ann_2/base_link");
+  EXPECT_EQ(transforms[0].transform.translation, (ros::Vector3{1, 2, 0}));
+}
+
+TEST_F(RobotTopicsTest, PublishesTheOtherSensors) {
+  auto heat = sensorOf(SensorKind::heat, "heat");
+  heat.beams.push_back({{0, 0, 0.4, 0, 0, 0}});
+  auto air = sensorOf(SensorKind::values, "air");
+  air.quantities = {{"co2", "ppm"}, {"count", ""}};
+  auto beacons = rangesAt(SensorKind::beacons, "beacons", {0, 0});
+  const auto messages = messagesOf(
+      {heat, sensorOf(SensorKind::battery, "battery"), sensorOf(SensorKind::bumper, "bumper"),
+       sensorOf(SensorKind::compass, "compass"), air, beacons},
+      {Scalar{30}, Scalar{12.5}, Contacts{{0, 1}}, Scalar{M_PI / 2}, Values{{400, 3}}, BeaconRanges{{2.5f, 5}}});
+  EXPECT_EQ(messages.at<ros::Temperature>("/Ann_2/heat"), (ros::Temperature{{{1, 500'000'000}, "Ann_2/heat"}, 30, 0}));
+  const auto battery = messages.at<ros::BatteryState>("/Ann_2/battery");
+  EXPECT_EQ(battery.voltage, 12.5f);
+  EXPECT_TRUE(std::isnan(battery.percentage));
+  EXPECT_EQ(messages.at<ros::UInt8MultiArray>("/Ann_2/bumper").data, (std::vector<std::uint8_t>{0, 1}));
+  const auto imu = messages.at<ros::Imu>("/Ann_2/compass");
+  EXPECT_NEAR(imu.orientation.w, std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(imu.angular_velocity_covariance[0], -1);
+  const auto values = messages.at<ros::Float64MultiArray>("/Ann_2/air");
+  EXPECT_EQ(values.layout.dim.at(0), (ros::MultiArrayDimension{"co2 [ppm],count", 2, 2}));
+  EXPECT_EQ(values.data, (std::vector<double>{400, 3}));
+  EXPECT_EQ(messages.at<ros::Float64MultiArray>("/Ann_2/beacons").data, (std::vector<double>{2.5, kNothing}));
+}
+
+TEST_F(RobotTopicsTest, PublishesACameraInItsOpticalFrame) {
+  auto camera = sensorOf(SensorKind::camera, "camera");
+  camera.beams.push_back({{0.1, 0, 0.5, 0, 0, 0}});
+  camera.camera = {200, 100, M_PI / 2, 5};
+  const auto messages = messagesOf({camera}, {Image{"JPEG"}});
+  const auto image = messages.at<ros::CompressedImage>("/Ann_2/camera/image_raw/compressed");
+  EXPECT_EQ(image.header.frame_id, "Ann_2/camera_optical");
+  EXPECT_EQ(image.format, "jpeg");
+  EXPECT_EQ(std::string(image.data.begin(), image.data.end()), "JPEG");
+  const auto info = messages.at<ros::CameraInfo>("/Ann_2/camera/camera_info");
+  EXPECT_NEAR(info.k[0], 100, 1e-9);
+  EXPECT_EQ(info.k[2], 100);
+  EXPECT_EQ(info.k[5], 50);
+  EXPECT_EQ(topics->mounts().at(0).transform.rotation, (ros::Quaternion{-0.5, 0.5, -0.5, 0.5}));
+}
+
+TEST_F(RobotTopicsTest, PublishesNothingOfSensorsThatDidNotMeasure) {
+  auto camera = sensorOf(SensorKind::camera, "camera");
+  camera.camera = {200, 100, 1, 5};
+  kept = {1, 0};
+  const auto messages = messagesOf({sensorOf(SensorKind::battery, "battery"), camera}, {Scalar{1}, Image{}});
+  EXPECT_TRUE(messages.by_topic.empty());
+}
+
+TEST_F(RobotTopicsTest, PublishesThePanOfASensorThatTurns) {
+  auto laser = rangesAt(SensorKind::laser, "laser", {-0.5, 0, 0.5});
+  laser.pans = true;
+  readings.laser_pan_rad = 1;
+  const auto messages = messagesOf({laser}, {echoesAt({1, 2, 3})});
+  EXPECT_TRUE(topics->mounts().empty());
+  const auto transforms = messages.at<ros::TFMessage>("/tf").transforms;
+  ASSERT_EQ(transforms.size(), 1u);
+  EXPECT_EQ(transforms[0].child_frame_id, "Ann_2/laser");
+  EXPECT_NEAR(transforms[0].transform.rotation.z, std::sin(0.5), 1e-7);
+}
+
+TEST_F(RobotTopicsTest, PublishesTruthCommandAndMessages) {
+  truth = mrpt::math::TPose2D(3, 4, 0);
+  command = Command{.speed_mps = 0.5, .turn_radps = 0.25};
+  readings.inbox = {{"Bob", "Ann 2", "GOLD \"1\""}};
+  const auto messages = messagesOf({}, {});
+  const auto odometry = messages.at<ros::Odometry>("/Ann_2/ground_truth");
+  EXPECT_EQ(odometry.header.frame_id, "map");
+  EXPECT_EQ(odometry.pose.pose.position, (ros::Point{3, 4, 0}));
+  EXPECT_EQ(messages.at<ros::Twist>("/Ann_2/cmd_vel"), (ros::Twist{{0.5, 0, 0}, {0, 0, 0.25}}));
+  EXPECT_EQ(messages.at<ros::String>("/Ann_2/messages").data, R"({"from":"Bob","text":"GOLD \"1\""})");
+}
+
+TEST(Topic, OffersLatchedTopicsToLateReaders) {
+  const Topic map{"/map", &ros::typeOf<ros::OccupancyGrid>(), TopicDelivery::latched};
+  EXPECT_TRUE(map.offeredQos().starts_with("- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n"));
+  const Topic scan{"/scan", &ros::typeOf<ros::LaserScan>(), TopicDelivery::sensor};
+  EXPECT_TRUE(scan.offeredQos().starts_with("- history: 1\n  depth: 5\n  reliability: 1\n  durability: 2\n"));
+}
+
+TEST(Topic, MakesNamesThatRosAllows) {
+  EXPECT_EQ(topicNamePart("Ann-2"), "Ann_2");
+  EXPECT_EQ(topicNamePart("2nd"), "_2nd");
+  EXPECT_EQ(topicNamePart("é"), "__");
+  EXPECT_EQ(topicNamePart(""), "_");
+}
+
+TEST(SensorTopics, AreThoseOfTheDocumentation) {
+  std::ifstream in(ROBOSIM_SOURCE_DIR "/doc/ros2.md");
+  std::stringstream page;
+  page << in.rdbuf();
+  for (const auto& row : kSensorTopicRows) {
+    if (row.kind == SensorKind::unknown) continue;
+    const std::string line = std::string("| ") + nameOf(row.kind) + " | `" + row.topics + "` | " + row.messages +
+                             " | " + row.content + " |\n";
+    EXPECT_NE(page.str().find(line), std::string::npos) << line;
+  }
+}
+
+}  // namespace
+}  // namespace robosim

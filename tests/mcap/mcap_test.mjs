@@ -1,0 +1,270 @@
+// RoboSim's MCAP files, judged by the readers and writers of others: @mcap/core, and Foxglove's decoders of ROS 2.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, openSync, readSync, fstatSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+import { parse } from '@foxglove/rosmsg';
+import { ros2jazzy } from '@foxglove/rosmsg-msgs-common';
+import { MessageReader } from '@foxglove/rosmsg2-serialization';
+import { McapIndexedReader, McapStreamReader, McapWriter } from '@mcap/core';
+import { loadDecompressHandlers } from '@mcap/support';
+import * as zstd from '@foxglove/wasm-zstd';
+
+const FOLDER = fileURLToPath(new URL('../..', import.meta.url));
+const ROBOSIM = process.env.ROBOSIM_PROGRAM ?? `${FOLDER}build/release/bin/robosim`;
+const STEPS = 51;
+
+let folder;
+let handlers;
+const inFolder = (name) => join(folder, name);
+const robosim = (...args) => execFileSync(ROBOSIM, args, { cwd: FOLDER, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+
+class File {
+  constructor(path) {
+    this.file = openSync(path, 'r');
+  }
+  size() {
+    return Promise.resolve(BigInt(fstatSync(this.file).size));
+  }
+  read(offset, length) {
+    const bytes = new Uint8Array(Number(length));
+    const got = readSync(this.file, bytes, 0, bytes.length, Number(offset));
+    assert.equal(got, bytes.length);
+    return Promise.resolve(bytes);
+  }
+}
+
+const openIndexed = (path) => McapIndexedReader.Initialize({ readable: new File(path), decompressHandlers: handlers });
+
+// All messages of a file by topic, decoded by their definitions in the file.
+async function decoded(path) {
+  const reader = await openIndexed(path);
+  const decoders = new Map();
+  const topics = new Map();
+  for await (const message of reader.readMessages({ validateCrcs: true })) {
+    const channel = reader.channelsById.get(message.channelId);
+    const schema = reader.schemasById.get(channel.schemaId);
+    if (!decoders.has(schema.id)) {
+      const definition = parse(new TextDecoder().decode(schema.data), { ros2: true });
+      decoders.set(schema.id, new MessageReader(definition));
+    }
+    const all = topics.get(channel.topic) ?? [];
+    all.push({ time: message.logTime, type: schema.name, message: decoders.get(schema.id).readMessage(message.data) });
+    topics.set(channel.topic, all);
+  }
+  return topics;
+}
+
+// The rows of the table of a rawlog, each as an object of columns, by robot.
+function tableOf(csv) {
+  const [head, ...lines] = readFileSync(csv, 'utf8').trimEnd().split('\n').map((line) => line.split(','));
+  const robots = new Map();
+  for (const line of lines) {
+    const row = Object.fromEntries(head.map((name, i) => [name, line[i]]));
+    robots.set(row.robot, [...(robots.get(row.robot) ?? []), row]);
+  }
+  return robots;
+}
+
+// The numbers of the table have at least 8 digits; those of the files are exact.
+function assertNear(actual, expected, what) {
+  const number = Number(expected);
+  assert.ok(Math.abs(actual - number) <= 1e-6 * Math.max(1, Math.abs(number)), `${what}: ${actual} is not ${expected}`);
+}
+
+const yawOf = ({ z, w }) => 2 * Math.atan2(z, w);
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'robosim-mcap-'));
+  handlers = await loadDecompressHandlers();
+  await zstd.isLoaded;
+  for (const name of ['run.mcap', 'run.rawlog']) {
+    robosim('run', 'worlds/small_maze.xml', '--time', String((STEPS - 1) / 10), '--seed', '7', '--record',
+            inFolder(name));
+  }
+  robosim('export', inFolder('run.rawlog'), inFolder('run.csv'));
+});
+
+after(() => rmSync(folder, { recursive: true }));
+
+test('a recorded file has the numbers of the rawlog of the same run', async () => {
+  const topics = await decoded(inFolder('run.mcap'));
+  let compared = 0;
+  for (const [robot, rows] of tableOf(inFolder('run.csv'))) {
+    const of = (name) => topics.get(`/${robot}/${name}`);
+    const compare = (topic, columns) => {
+      const messages = of(topic);
+      if (!messages) return;
+      const measured = rows.filter((row) => row[columns[0][0]] !== '');
+      assert.equal(messages.length, measured.length, `${robot} ${topic}`);
+      messages.forEach(({ time, message }, i) => {
+        assertNear(Number(time) / 1e9, measured[i].time_s, `${topic}: time`);
+        for (const [column, valueOf] of columns) {
+          assertNear(valueOf(message), measured[i][column], `${robot} ${topic} ${column}, step ${i}`);
+          ++compared;
+        }
+      });
+    };
+    compare('odom', [
+      ['odometry/x_m', (m) => m.pose.pose.position.x],
+      ['odometry/y_m', (m) => m.pose.pose.position.y],
+      ['odometry/heading_rad', (m) => yawOf(m.pose.pose.orientation)],
+      ['odometry/speed_mps', (m) => m.twist.twist.linear.x],
+    ]);
+    compare('ground_truth', [
+      ['GROUND_TRUTH/x_m', (m) => m.pose.pose.position.x],
+      ['GROUND_TRUTH/y_m', (m) => m.pose.pose.position.y],
+      ['GROUND_TRUTH/heading_rad', (m) => yawOf(m.pose.pose.orientation)],
+    ]);
+    compare('cmd_vel', [['STATUS/speed_mps', (m) => m.linear.x], ['STATUS/turn_radps', (m) => m.angular.z]]);
+    compare('heat', [['heat/temperature_0_celsius', (m) => m.temperature]]);
+    for (const [topic, sensor, read] of [
+      ['scan', 'laser', (message) => message.ranges],
+      ...Array.from({ length: 16 }, (_, i) => [`sonar/range_${i}`, 'sonar', (message) => ({ [i]: message.range })]),
+    ]) {
+      (of(topic) ?? []).forEach(({ message }, step) => {
+        for (const [i, range_m] of Object.entries(read(message))) {
+          const recorded = rows[step][`${sensor}/range_${i}_m`];
+          ++compared;
+          if (range_m === Infinity) {
+            assert.equal(recorded, '', `${robot} ${topic} ${i}, step ${step}`);
+          } else if (range_m !== -Infinity) {
+            assertNear(range_m, recorded, `${robot} ${topic} ${i}, step ${step}`);
+          }
+        }
+      });
+    }
+  }
+  assert.ok(compared > 10000, `${compared} numbers`);
+  assert.equal(topics.get('/clock').length, STEPS);
+  assert.deepEqual(topics.get('/clock')[15].message.clock, { sec: 1, nanosec: 500000000 });
+  const map = topics.get('/map')[0].message;
+  assert.equal(map.data.length, map.info.width * map.info.height);
+  assert.deepEqual([...new Set(map.data)].sort((a, b) => a - b).filter((cell) => cell >= 0), [0, 100]);
+  assert.ok(topics.get('/objects')[0].message.markers.length > 1);
+  const frames = topics.get('/tf_static')[0].message.transforms.map((mount) => mount.child_frame_id);
+  assert.equal(new Set(frames).size, frames.length);
+});
+
+test('a recorded file has the world, the seed and the digest', async () => {
+  const reader = await openIndexed(inFolder('run.mcap'));
+  assert.equal(reader.header.profile, 'ros2');
+  const metadata = {};
+  for await (const record of reader.readMetadata()) metadata[record.name] = record.metadata;
+  assert.equal(metadata.robosim.get('seed'), '7');
+  assert.match(metadata.robosim_outcome.get('digest'), /^[0-9a-f]{16}$/);
+  const attachments = [];
+  for await (const attachment of reader.readAttachments({ validateCrcs: true })) attachments.push(attachment);
+  assert.equal(attachments[0].name, 'small_maze.xml');
+  writeFileSync(inFolder('world.xml'), attachments[0].data);
+  assert.match(robosim('replay', inFolder('run.mcap'), '--check', inFolder('world.xml')), /[Tt]he same/);
+});
+
+test('the definitions are those of ROS 2', async () => {
+  const reader = await openIndexed(inFolder('run.mcap'));
+  const withoutConstants = (definitions) => definitions.filter((field) => !field.isConstant)
+    .map(({ name, type, isArray, arrayLength }) => ({ name, type, isArray: isArray ?? false, arrayLength }));
+  let compared = 0;
+  for (const schema of reader.schemasById.values()) {
+    for (const part of parse(new TextDecoder().decode(schema.data), { ros2: true })) {
+      const name = (part.name ?? schema.name).replace('/msg/', '/');
+      assert.ok(ros2jazzy[name], name);
+      assert.deepEqual(withoutConstants(part.definitions), withoutConstants(ros2jazzy[name].definitions), name);
+      ++compared;
+    }
+  }
+  assert.ok(compared > 30);
+});
+
+// The messages of a file, written again by @mcap/core.
+async function rewritten(path, options) {
+  const reader = await openIndexed(path);
+  const pieces = [];
+  let size = 0n;
+  const writer = new McapWriter({
+    writable: {
+      write: async (bytes) => { pieces.push(Buffer.from(bytes)); size += BigInt(bytes.length); },
+      position: () => size,
+    },
+    ...options,
+  });
+  await writer.start({ profile: 'ros2', library: 'test' });
+  const channels = new Map();
+  for (const channel of reader.channelsById.values()) {
+    const schemaId = await writer.registerSchema(reader.schemasById.get(channel.schemaId));
+    channels.set(channel.id, await writer.registerChannel({ ...channel, schemaId }));
+  }
+  for await (const message of reader.readMessages()) {
+    await writer.addMessage({ ...message, channelId: channels.get(message.channelId) });
+  }
+  await writer.addAttachment({ name: 'a.txt', mediaType: 'text/plain', logTime: 0n, createTime: 0n, data: Buffer.from('a') });
+  await writer.addMetadata({ name: 'a', metadata: new Map([['b', 'c']]) });
+  await writer.end();
+  return Buffer.concat(pieces);
+}
+
+const VARIANTS = {
+  no_chunks: { useChunks: false },
+  chunks: { useChunks: true, chunkSize: 50_000 },
+  zstd: {
+    useChunks: true, chunkSize: 50_000,
+    compressChunk: (records) => ({ compression: 'zstd', compressedData: zstd.compress(records, 3) }),
+  },
+  no_index: {
+    useChunks: true, useMessageIndex: false, useChunkIndex: false, useStatistics: false, useSummaryOffsets: false,
+    repeatSchemas: false, repeatChannels: false,
+  },
+};
+
+for (const [name, options] of Object.entries(VARIANTS)) {
+  test(`RoboSim reads a file of @mcap/core: ${name}`, async () => {
+    writeFileSync(inFolder(`${name}.mcap`), await rewritten(inFolder('run.mcap'), options));
+    robosim('export', inFolder(`${name}.mcap`), inFolder(`${name}.csv`));
+    assert.equal(readFileSync(inFolder(`${name}.csv`), 'utf8'), readFileSync(inFolder('run.csv'), 'utf8'));
+    assert.match(robosim('replay', inFolder(`${name}.mcap`), '--check', inFolder('world.xml')), /[Tt]he same/);
+  });
+}
+
+test('a file that is cut off is read equally by both', async () => {
+  const whole = await rewritten(inFolder('run.mcap'), VARIANTS.chunks);
+  for (const share of [0.35, 0.8]) {
+    const cut = whole.subarray(0, Math.floor(share * whole.length));
+    writeFileSync(inFolder('cut.mcap'), cut);
+    robosim('export', inFolder('cut.mcap'), inFolder('cut.csv'));
+    // @mcap/core returns the records of whole chunks.
+    const reader = new McapStreamReader({ decompressHandlers: handlers });
+    reader.append(cut);
+    const topics = new Map();
+    let steps = 0;
+    for (let record; (record = reader.nextRecord());) {
+      if (record.type === 'Channel') topics.set(record.id, record.topic);
+      if (record.type === 'Message' && topics.get(record.channelId) === '/robosim/rawlog') ++steps;
+    }
+    const rows = readFileSync(inFolder('cut.csv'), 'utf8').trimEnd().split('\n').length - 1;
+    assert.ok(steps > 5 && steps < STEPS);
+    // Each step has a row of each of the two robots; the first message has the note of the run.
+    assert.equal(rows, 2 * (steps - 1), `${share}`);
+  }
+});
+
+test('an exported rawlog has the messages of the recorded file', async () => {
+  robosim('export', inFolder('run.rawlog'), inFolder('exported.mcap'));
+  const recorded = await decoded(inFolder('run.mcap'));
+  const exported = await decoded(inFolder('exported.mcap'));
+  const bytesOf = (topics) => Buffer.concat(topics.get('/robosim/rawlog').map(({ message }) => Buffer.from(message.data)));
+  assert.ok(bytesOf(exported).equals(bytesOf(recorded)));
+  assert.deepEqual([...exported.keys()].sort(), [...recorded.keys()].sort());
+  for (const [topic, messages] of recorded) {
+    if (topic === '/robosim/rawlog') continue;
+    // A true heading is recorded as a rotation.
+    const isTruth = topic.endsWith('/ground_truth');
+    const rounded = (all) => JSON.stringify(all, (key, value) => typeof value === 'bigint' ? String(value)
+      : isTruth && typeof value === 'number' ? Number(value.toFixed(9)) : value);
+    assert.equal(rounded(exported.get(topic)), rounded(messages), topic);
+  }
+});
