@@ -132,6 +132,7 @@ TEST(Libraries, OfMapsRecordingsPicturesAndSubcommandsWithoutNetworkAreTheseOnly
                                 "freetype",
                                 "gcc_s",
                                 "isal",
+                                "lz4",
                                 "m",
                                 "mrpt-img",
                                 "mrpt-io",
@@ -151,7 +152,8 @@ TEST(Libraries, OfMapsRecordingsPicturesAndSubcommandsWithoutNetworkAreTheseOnly
                                 "stdc++",
                                 "ubsan",
                                 "yaml-cpp",
-                                "z"};
+                                "z",
+                                "zstd"};
   allowed.insert(kNeededByEngine.begin(), kNeededByEngine.end());
   allowed.insert(kLibraries.begin(), kLibraries.end());
   for (const char* library : {"robosim-maps", "robosim-recording", "robosim-rendering", "robosim-program"}) {

@@ -8,6 +8,7 @@
 #include "base/vector_registers.h"
 
 namespace robosim {
+
 struct GzipFile::Compressor {
   Compressor() {
     isal_deflate_init(&stream);
