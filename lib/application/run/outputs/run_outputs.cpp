@@ -149,7 +149,9 @@ void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, st
   } else {
     std::cout << summary.text();
     if (recording_) {
-      for (const auto& file : recording_->files()) std::cout << (isMcapName(file) ? "mcap      " : "rawlog    ") << printableText(file.string()) << '\n';
+      for (const auto& file : recording_->files()) {
+        std::cout << (isMcapName(file) ? "mcap      " : "rawlog    ") << printableText(file.string()) << '\n';
+      }
     }
     if (is_drawn) std::cout << "picture   " << printableText(arguments_.picture) << std::endl;
   }
