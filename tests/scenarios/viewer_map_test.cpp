@@ -50,6 +50,36 @@ TEST(ViewerMap, ShowsObjectsAndRobotsAtTheirSizes) {
   EXPECT_EQ(shown->robots[0].radius_m, loaded.fleet.robots[0].info.radius_m);
 }
 
+TEST(ViewerMap, ShowsObjectsAtTheirPresentPlaces) {
+  ServedWorld world(paused());
+  Panel panel(world);
+  ViewerMap map(world.connectOptions());
+  map.setWatched(true);
+  const auto at_first = mapNamed("small_maze", map, panel);
+  const auto added = parseChange(
+      "<add><cylinder><name>puck</name><x>0</x><y>0</y><z>5</z><radius>0.1</radius><height>0.2</height></cylinder></"
+      "add>",
+      "test");
+  panel.supervise(added);
+  waitUntil("the map has the puck", [&] {
+    panel.status();
+    return map.newest()->world->objects.size() == at_first->objects.size() + 1;
+  });
+  const auto with_puck = map.newest();
+  EXPECT_EQ(with_puck->world_from_object, nullptr);
+  EXPECT_EQ(with_puck->world->objects.back().radius_m, 0.1);
+  panel.supervise(PlaceBody{"puck", 0.5, 0.25});
+  waitUntil("the puck has moved", [&] {
+    panel.status();
+    return map.newest()->world_from_object != nullptr;
+  });
+  const auto moved = map.newest();
+  EXPECT_EQ(moved->world, with_puck->world) << "the same map";
+  ASSERT_EQ(moved->world_from_object->size(), with_puck->world->objects.size());
+  EXPECT_EQ(moved->world_from_object->back(), mrpt::math::TPose2D(0.5, 0.25, 0));
+  EXPECT_EQ(moved->world_from_object->front(), with_puck->world->objects.front().world_from_object);
+}
+
 TEST(ViewerMap, FollowsALoadedWorldAndDisconnectsWithoutViewers) {
   ServedWorld world(paused());
   Panel panel(world);

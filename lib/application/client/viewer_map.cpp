@@ -17,7 +17,7 @@ std::shared_ptr<const MapWorld> mapOf(const ViewedRun& viewed_run) {
   map->x_max_m = world.bounds.x_max;
   map->y_min_m = world.bounds.y_min;
   map->y_max_m = world.bounds.y_max;
-  for (const auto& object : world.objects) {
+  for (const auto& object : viewed_run.snapshot.objects.orThose(world.objects)) {
     MapWorld::Object mapped;
     mapped.world_from_object = object.body.world_from_body;
     if (const auto* cube = std::get_if<Cube>(&object.body.shape)) {
@@ -102,7 +102,12 @@ void ViewerMap::receive() {
 
 void ViewerMap::show(const ViewedRun& viewed_run, bool is_other_world) {
   auto view = std::make_shared<MapView>();
-  view->world = is_other_world ? mapOf(viewed_run) : newest()->world;
+  if (is_other_world) {
+    view->world = mapOf(viewed_run);
+    map_objects_ = shown_objects_ = viewed_run.snapshot.objects;
+  } else {
+    placeObjects(viewed_run, *view);
+  }
   view->step = viewed_run.snapshot.step;
   for (const auto& robot : viewed_run.snapshot.robots) {
     view->world_from_robot.push_back(robot.world_from_robot);
@@ -110,6 +115,28 @@ void ViewerMap::show(const ViewedRun& viewed_run, bool is_other_world) {
   }
   const std::lock_guard lock(mutex_);
   view_ = std::move(view);
+}
+
+/// Sets the world and the places of its objects from those of the newest view. A world whose objects are others, in
+/// more than their places, is another one.
+void ViewerMap::placeObjects(const ViewedRun& viewed_run, MapView& view) {
+  const auto before = newest();
+  const ChangedObjects& now = viewed_run.snapshot.objects;
+  view.world = before->world;
+  view.world_from_object = before->world_from_object;
+  if (now.isSameList(shown_objects_)) return;
+  shown_objects_ = now;
+  const auto& of_world = viewed_run.world.world.objects;
+  const auto moved = movedBetween(map_objects_.orThose(of_world), now.orThose(of_world));
+  if (!moved) {
+    view.world = mapOf(viewed_run);
+    view.world_from_object.reset();
+    map_objects_ = now;
+    return;
+  }
+  auto places = std::make_shared<std::vector<mrpt::math::TPose2D>>();
+  for (const auto& object : now.orThose(of_world)) places->push_back(object.body.world_from_body);
+  view.world_from_object = std::move(places);
 }
 
 void ViewerMap::showProblem(const std::string& problem) {

@@ -23,6 +23,7 @@ class ViewerMap final : public MapSource {
   void work();
   void receive();
   void show(const ViewedRun& viewed_run, bool is_other_world);
+  void placeObjects(const ViewedRun& viewed_run, MapView& view);
   void showProblem(const std::string& problem);
 
   ConnectOptions environment_;
@@ -31,6 +32,11 @@ class ViewerMap final : public MapSource {
   bool is_watched_ = false;
   bool is_over_ = false;
   Viewer* viewer_ = nullptr;  ///< owned by the thread; null while not connected
+  /// @name Of the thread
+  ///@{
+  ChangedObjects map_objects_;    ///< those of MapView::world
+  ChangedObjects shown_objects_;  ///< those of the newest view
+  ///@}
   std::shared_ptr<const MapView> view_ = std::make_shared<MapView>();
   std::thread thread_;
 };

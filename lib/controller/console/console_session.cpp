@@ -275,6 +275,7 @@ bool ConsoleSession::takeMap(const std::shared_ptr<const MapView>& map) {
   if (!is_map_watched_ || !map || map == feed_.poses) return false;
   const bool is_first = !feed_.poses;
   if (is_first || map->world != feed_.poses->world || map->problem != feed_.poses->problem) {
+    feed_.map.message.reset();  // also an equal map is sent: pages may show its objects at other places
     feed_.map.set(mapJson(*map));
   }
   feed_.poses = map;

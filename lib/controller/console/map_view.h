@@ -37,6 +37,8 @@ struct MapView {
   std::uint64_t step = 0;
   std::vector<mrpt::math::TPose2D> world_from_robot;  ///< in the order of MapWorld::robots
   std::vector<Activity> activity;
+  /// Present places of the objects, in the order of MapWorld::objects; null while they are those of `world`.
+  std::shared_ptr<const std::vector<mrpt::math::TPose2D>> world_from_object;
 };
 
 /// Source of the map. Called from one thread.

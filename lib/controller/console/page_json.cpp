@@ -176,6 +176,20 @@ std::optional<double> heatOf(const RobotNews& news) {
   return scalar ? std::optional<double>(scalar->value) : std::nullopt;
 }
 
+/// Index and place of each object that is elsewhere than the page shows it.
+Json movedObjects(const MapView& map, const MapView* sent) {
+  Json moved = Json::array();
+  const auto* shown = sent && sent->world == map.world ? sent->world_from_object.get() : nullptr;
+  if (!map.world || map.world_from_object.get() == shown) return moved;
+  const auto& objects = map.world->objects;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto& now = map.world_from_object ? (*map.world_from_object)[i] : objects[i].world_from_object;
+    const auto& before = shown ? (*shown)[i] : objects[i].world_from_object;
+    if (now != before) moved.push_back({i, fine(now.x), fine(now.y), fine(now.phi)});
+  }
+  return moved;
+}
+
 }  // namespace
 
 std::string welcomeJson(std::uint64_t page, bool may_operate) {
@@ -313,12 +327,14 @@ std::string mapJson(const MapView& map) {
                  {"robots", robots}});
 }
 
-std::string posesJson(const MapView& map) {
+std::string posesJson(const MapView& map, const MapView* sent) {
   Json robots = Json::array();
   for (std::size_t i = 0; i < map.world_from_robot.size(); ++i) {
     robots.push_back({{"at", toJson(map.world_from_robot[i])}, {"activity", nameOf(map.activity[i])}});
   }
-  return textOf({{"type", "poses"}, {"step", map.step}, {"robots", robots}});
+  Json poses = {{"type", "poses"}, {"step", map.step}, {"robots", robots}};
+  if (Json moved = movedObjects(map, sent); !moved.empty()) poses["objects"] = std::move(moved);
+  return textOf(poses);
 }
 
 std::string noteJson(const std::string& text, bool is_warning, const std::string& detail) {

@@ -47,7 +47,9 @@ std::string runJson(const RunView& run);
 std::string pulseJson();
 
 std::string mapJson(const MapView& map);
-std::string posesJson(const MapView& map);
+/// Poses of the robots, and places of the objects that have moved.
+/// @param sent the view that the page shows; null, or of another world, if the page shows the map as it was sent
+std::string posesJson(const MapView& map, const MapView* sent);
 
 /// A line of text for the user.
 /// @param is_warning whether it is highlighted

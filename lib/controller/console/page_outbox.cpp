@@ -79,11 +79,14 @@ WebMessagePtr PageOutbox::nextUpdate(ConsoleFeed& feed, Time now) {
 }
 
 WebMessagePtr PageOutbox::nextOfMap(const ConsoleFeed& feed, Time now) {
-  if (std::exchange(map_, feed.map.version) != feed.map.version) return feed.map.message;
+  if (std::exchange(map_, feed.map.version) != feed.map.version) {
+    poses_.reset();
+    return feed.map.message;
+  }
   if (!feed.poses->world || feed.poses == poses_ || now - poses_sent_ < kPosesPeriod) return nullptr;
-  poses_ = feed.poses;
+  const auto sent = std::exchange(poses_, feed.poses);
   poses_sent_ = now;
-  return textMessage(posesJson(*feed.poses));
+  return textMessage(posesJson(*feed.poses, sent.get()));
 }
 
 }  // namespace robosim

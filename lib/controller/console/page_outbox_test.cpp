@@ -1,5 +1,8 @@
 #include "console/page_outbox.h"
 
+#include <optional>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "control/testing/fake_hardware.h"
@@ -190,6 +193,37 @@ TEST_F(PageOutboxTest, SendsPosesAtMostTenTimesPerSecond) {
     now += 10ms;
   }
   EXPECT_EQ(poses, 10);
+}
+
+TEST_F(PageOutboxTest, SendsThePlacesOfObjectsOnlyWhenTheyHaveMoved) {
+  auto world = std::make_shared<MapWorld>();
+  world->objects.resize(3);
+  world->objects[1].world_from_object = {1, 1, 0};
+  const auto show = [&](const std::optional<mrpt::math::TPose2D>& second) {
+    auto view = std::make_shared<MapView>();
+    view->world = world;
+    using Places = std::vector<mrpt::math::TPose2D>;
+    if (second) view->world_from_object = std::make_shared<const Places>(Places{{}, *second, {}});
+    feed.poses = view;
+    now += 100ms;
+  };
+  outbox.subscribeMap(true);
+  feed.map.set("map");
+  show(std::nullopt);
+  EXPECT_EQ(next(), "map");
+  EXPECT_EQ(next(), R"({"type":"poses","step":0,"robots":[]})");
+  show({{2, 1.5, 0.25}});
+  EXPECT_EQ(next(), R"({"type":"poses","step":0,"robots":[],"objects":[[1,2.0,1.5,0.25]]})");
+  show({{2, 1.5, 0.25}});
+  EXPECT_EQ(next(), R"({"type":"poses","step":0,"robots":[]})") << "it has stopped";
+  outbox.subscribeMap(false);
+  outbox.subscribeMap(true);
+  EXPECT_EQ(next(), "map");
+  now += 100ms;
+  EXPECT_EQ(next(), R"({"type":"poses","step":0,"robots":[],"objects":[[1,2.0,1.5,0.25]]})") << "again, with the map";
+  show(std::nullopt);
+  EXPECT_EQ(next(), R"({"type":"poses","step":0,"robots":[],"objects":[[1,1.0,1.0,0.0]]})")
+      << "back, as after a restored state";
 }
 
 TEST_F(PageOutboxTest, LeavesOutRangesForAPageThatRequestsThem) {

@@ -167,7 +167,7 @@ link.addEventListener('note', ({ detail }) => note(detail.text, detail.warning, 
 link.addEventListener('vitals', ({ detail }) => members.setVitals(detail.robots));
 link.addEventListener('map', ({ detail }) => map.set(detail));
 link.addEventListener('poses', ({ detail }) => {
-  map.setPoses(detail.robots);
+  map.setPoses(detail.robots, detail.objects);
   map.draw(state.team?.robots[0]?.name);
 });
 

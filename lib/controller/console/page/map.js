@@ -31,8 +31,10 @@ export class Map2D {
     this.draw('');
   }
 
-  setPoses(poses) {
+  // `moved`: number and place of each object that has moved; none if not given
+  setPoses(poses, moved = []) {
     this.#poses = poses;
+    for (const [i, ...at] of moved) if (this.#map?.objects[i]) this.#map.objects[i].at = at;
     this.canvas.dataset.robots = JSON.stringify(poses.map((robot) => robot.at));
   }
 
