@@ -11,6 +11,7 @@
 #include "run/outputs/intervention_note.h"
 #include "run/outputs/run_note.h"
 #include "viewing/foreign_recording.h"
+#include "viewing/recorded_objects.h"
 
 namespace robosim {
 namespace {
@@ -46,7 +47,8 @@ class RobosimRecording final : public RecordedMoments {
       const RunSnapshot snapshot = toSnapshot(std::move(*step));
       paths_.add(snapshot);
       addEvents(events_, world_.fleet, snapshot);
-      moments_.push_back({snapshot.time_s, place, objects_});
+      recorded_objects_.add(objects_);
+      moments_.push_back({snapshot.time_s, place, moments_.size()});
       if (progress.due()) progress.show("reading, " + fixed(moments_.back().time_s, 0) + " s …");
     }
     read_error_ = reader_.readError().value_or("");
@@ -72,7 +74,7 @@ class RobosimRecording final : public RecordedMoments {
     auto step = steps_.next();
     if (step) {
       RunSnapshot snapshot = toSnapshot(std::move(*step));
-      snapshot.objects = requested.objects;
+      snapshot.objects = recorded_objects_.at(requested.number);
       if (snapshot.time_s == requested.time_s) return snapshot;
     }
     throw RecordingError(file_ + ": has changed since it was opened; open it again");
@@ -82,7 +84,7 @@ class RobosimRecording final : public RecordedMoments {
   struct Moment {
     double time_s;
     std::uint64_t place;  ///< in the file
-    ChangedObjects objects;
+    std::size_t number;   ///< in RecordedObjects
   };
 
   /// Notes what robots and the interventions before the last step that was read have made of the objects.
@@ -117,6 +119,7 @@ class RobosimRecording final : public RecordedMoments {
   std::vector<Moment> moments_;
   std::vector<double> times_;
   ChangedObjects objects_;  ///< after the last moment
+  RecordedObjects recorded_objects_{world_.world.objects};
   RunPaths paths_;
   RunEvents events_;
   std::string read_error_;
