@@ -58,12 +58,30 @@ std::string startText(const World& world, const mrpt::math::TPose2D& pose) {
   return "";
 }
 
-/// Total length of walls, pillars and boxes in plan, along their longer sides.
+/// "6, 1 of them hot, 3 movable, 2 doors": how many objects there are, and how many of those that are special.
+std::string objectsText(const World& world) {
+  std::size_t hot = 0, movable = 0, doors = 0, people = 0, belts = 0;
+  for (const auto& object : world.objects) {
+    hot += object.body.heat_celsius != 0 ? 1 : 0;
+    movable += object.movable ? 1 : 0;
+    doors += object.door ? 1 : 0;
+    people += object.walker ? 1 : 0;
+    belts += object.conveyor ? 1 : 0;
+  }
+  std::string text = std::to_string(world.objects.size()) + ", " + std::to_string(hot) + " of them hot";
+  for (const auto& [count, kind] :
+       {std::pair{movable, "movable"}, {doors, "doors"}, {people, "people"}, {belts, "belts"}}) {
+    if (count > 0) text += ", " + std::to_string(count) + " " + kind;
+  }
+  return text;
+}
+
+/// Total length of walls and boxes that stay where they are in plan, along their longer sides.
 double wallLength(const World& world) {
   double length_m = 0;
   for (const auto& object : world.objects) {
     const auto* cube = std::get_if<Cube>(&object.body.shape);
-    if (cube) length_m += std::max(cube->length_m, cube->width_m);
+    if (cube && object.isStationary() && !object.conveyor) length_m += std::max(cube->length_m, cube->width_m);
   }
   for (const auto& map : world.maps) {
     for (const auto& cells : map.plan.occupied) length_m += std::max(cells.columns, cells.rows) * map.plan.cell_m;
@@ -151,11 +169,9 @@ void checkWorld(const std::string& file, World world_in_file, const Additions& a
   checked.maps = world.maps.size();
 
   const auto& b = world.bounds;
-  std::size_t hot = 0;
-  for (const auto& object : world.objects) hot += object.body.heat_celsius != 0 ? 1 : 0;
   checked.contents = {{"surface", fixed(b.x_max - b.x_min, 1) + " m × " + fixed(b.y_max - b.y_min, 1) +
                                       " m; one length unit of the file is " + toText(world.unit_m) + " m"},
-                      {"objects", std::to_string(world.objects.size()) + ", " + std::to_string(hot) + " of them hot"},
+                      {"objects", objectsText(world)},
                       {"walls", fixed(wallLength(world), 1) + " m in total, along their longer sides"},
                       {"robots", std::to_string(world.robots.size())}};
   for (const auto& map : world.maps) {

@@ -176,7 +176,7 @@ TEST(DistributedRun, EqualsARunInOneProcessWhoseWorldFileChangesTheWorld) {
 }
 
 TEST(DistributedRun, EqualsARunInOneProcessWhoseRobotsPushObjects) {
-  for (const char* world : {"open_100", "pucks"}) {
+  for (const char* world : {"open_100", "pucks", "station"}) {
     Settings settings{world, "wander", 100};
     settings.has_movable_objects = true;
     LocalRun run(loaded(settings), optionsOf(settings, 1));

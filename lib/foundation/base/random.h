@@ -15,7 +15,8 @@ enum class RandomPurpose : std::uint32_t {
   sensor_retry,
   radio_burst,
   bootstrap,
-  breakdown
+  breakdown,
+  walker
 };
 
 /// Counter-based random number generator (Philox 4×32-10; Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as

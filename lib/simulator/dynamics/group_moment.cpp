@@ -70,6 +70,13 @@ Lever leverOf(const PushingGroup& group, const GroupMoment& moment, With kind, s
           {cross(contact.points[0].at - center, contact.normal), cross(contact.points[1].at - center, contact.normal)}};
 }
 
+TPoint2D floorVelocityUnder(const PushingGroup& group, const ObjectMotion& motion) {
+  for (const Belt& belt : group.belts) {
+    if (belt.carries({motion.world_from_object.x, motion.world_from_object.y})) return belt.velocity_mps;
+  }
+  return {0, 0};
+}
+
 double speedOf(const MovableBody& body, const ObjectSpeed& speed) {
   return portable::hypot(portable::hypot(speed.vx_mps, speed.vy_mps), speed.turn_radps * body.turn_radius_m);
 }

@@ -43,6 +43,8 @@ bool mayTouch(const PushingGroup& group, const GroupMoment& moment, const Pushin
 /// @param body the first or second of a pair, and its kind
 Lever leverOf(const PushingGroup& group, const GroupMoment& moment, PushingGroup::Pair::With kind, std::uint32_t body,
               const Contact& contact);
+/// Velocity of the floor at the centre of an object, which is that of a belt or 0 [m/s].
+mrpt::math::TPoint2D floorVelocityUnder(const PushingGroup& group, const ObjectMotion& motion);
 /// Speed in the length in which friction is equal in all directions: (x, y, turn_radius · turn) [m/s].
 double speedOf(const MovableBody& body, const ObjectSpeed& speed);
 

@@ -19,7 +19,11 @@ class IslandSearch {
         reach_m_(islandReach(group, duration_s)),
         sets_(objects_ + group.robots.size()),
         is_moving_(objects_ + group.robots.size()) {
-    for (std::size_t i = 0; i < objects_; ++i) is_moving_[i] = from.objects[i].isAtRest() ? 0 : 1;
+    for (std::size_t i = 0; i < objects_; ++i) {
+      const ObjectMotion& motion = from.objects[i];
+      const auto floor_mps = floorVelocityUnder(group, motion);
+      is_moving_[i] = motion.isAtRest() && floor_mps.x == 0 && floor_mps.y == 0 ? 0 : 1;
+    }
     for (std::size_t r = 0; r < group.robots.size(); ++r) {
       is_moving_[objects_ + r] = from.robots[r] == robots_to[r] ? 0 : 1;
     }

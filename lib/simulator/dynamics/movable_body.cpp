@@ -36,12 +36,20 @@ MovableBody MovableBody::from(const WorldObject& object) {
   return {.shape = body.shape,
           .heights = body.heights(),
           .mass_kg = movable.mass_kg,
-          .friction_n = object.door ? 0 : movable.friction * movable.mass_kg * kGravity_mps2,
+          .friction_n = object.movable ? movable.friction * movable.mass_kg * kGravity_mps2 : 0,
           .restitution = movable.restitution,
           .turn_radius_m = meanDistance(body.shape),
           .covering_radius_m = covering_m,
           .width_min_m = cube ? std::min(cube->length_m, cube->width_m) : 2 * covering_m,
-          .door = object.door};
+          .door = object.door,
+          .walker = object.walker,
+          .walker_stream = object.walker ? Walker::streamOf(object.name) : 0};
+}
+
+Belt Belt::from(const WorldObject& object) {
+  const auto& cube = std::get<Cube>(object.body.shape);
+  const OrientedBox area = OrientedBox::from(object.body.world_from_body, cube.length_m, cube.width_m);
+  return {area, area.axis * object.conveyor->speed_mps};
 }
 
 Outline MovableBody::outlineAt(const mrpt::math::TPose2D& world_from_object) const {

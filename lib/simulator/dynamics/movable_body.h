@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <optional>
+#include <variant>
 
 #include <mrpt/math/TPose2D.h>
 
@@ -26,9 +28,15 @@ struct MovableBody {
   double covering_radius_m = 0;  ///< Body::coveringRadius()
   double width_min_m = 0;        ///< of its outline, in its narrowest direction
 
-  std::optional<Door> door;  ///< which moves by itself, as if its mass were infinite
+  /// @name Driven bodies, which move by themselves, as if their mass were infinite
+  ///@{
+  std::optional<Door> door;
+  std::optional<Walker> walker;
+  std::uint32_t walker_stream = 0;  ///< Walker::streamOf() the object's name
+  bool isDriven() const { return door || walker; }
+  ///@}
 
-  /// @pre the object is movable or a door
+  /// @pre the object is not stationary
   static MovableBody from(const WorldObject& object);
   Outline outlineAt(const mrpt::math::TPose2D& world_from_object) const;
   /// Where a door is when it is open to a share.
@@ -53,7 +61,18 @@ struct ObjectMotion : ObjectSpeed {
   mrpt::math::TPose2D world_from_object;
   double open_to = 0;     ///< Door::open_to, of a door
   double door_share = 0;  ///< Door::share
+  Walk walk = {};         ///< Walker::walk
   bool operator==(const ObjectMotion&) const = default;
+};
+
+/// The belt of a conveyor. An object whose centre is within it stands on it.
+struct Belt {
+  OrientedBox area;
+  mrpt::math::TPoint2D velocity_mps;  ///< world frame
+
+  /// @pre the object is a conveyor
+  static Belt from(const WorldObject& object);
+  bool carries(const mrpt::math::TPoint2D& center) const { return distance(area, center) == 0; }
 };
 
 /// Robots move as these discs.

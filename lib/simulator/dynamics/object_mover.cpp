@@ -29,7 +29,7 @@ struct ObjectMover::Search {
   std::span<const Path> paths;
   std::span<const ObjectMotion> objects;
   std::vector<std::uint8_t> robot_moves;  ///< by robot; paths change while groups are computed
-  std::vector<double> door_shares;        ///< by object: to which a door is to be open at the end
+  std::vector<DrivenPlan> plans;          ///< by object
   double speed_max_mps = 0;               ///< of all bodies at the start of the step
   double reach_m = 0;                     ///< no object moves farther
   double path_max_m = 0;
@@ -38,8 +38,8 @@ struct ObjectMover::Search {
   std::vector<std::uint32_t> members;   ///< in the order found
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< lower body first; a member, and what it may touch
 
-  Search(const ObjectMover& mover, const Scene& the_scene, double period_s, std::span<const Path> the_paths,
-         std::span<const ObjectMotion> the_objects)
+  Search(const ObjectMover& mover, const Scene& the_scene, double period_s, std::uint64_t seed,
+         std::span<const Path> the_paths, std::span<const ObjectMotion> the_objects)
       : of(mover),
         scene(the_scene),
         paths(the_paths),
@@ -52,46 +52,23 @@ struct ObjectMover::Search {
       // A clipped robot drives as fast as another, until it stops.
       if (path.clippedLength() != 0) speed_max_mps = std::max(speed_max_mps, std::abs(path.length_m) / period_s);
     }
-    door_shares.resize(objects.size());
+    if (of.has_driven_) {
+      plans = planDriven({scene, of.surface_, of.bodies_, objects, of.robots_, paths, period_s, seed});
+      for (const auto& plan : plans) speed_max_mps = std::max(speed_max_mps, plan.way_m / period_s);
+    }
     for (std::size_t k = 0; k < objects.size(); ++k) {
       const auto& motion = objects[k];
-      if (of.bodies_[k].door) planDoor(k, period_s);
       if (motion.isAtRest()) continue;
       speed_max_mps = std::max(speed_max_mps, portable::hypot(motion.vx_mps, motion.vy_mps) +
                                                   std::abs(motion.turn_radps) * of.bodies_[k].covering_radius_m);
     }
+    speed_max_mps = std::max(speed_max_mps, of.belt_speed_max_mps_);
     // A body that bounces off a heavy one that comes towards it leaves with its own speed and twice the other's.
     speed_max_mps *= 3;
     reach_m = speed_max_mps * period_s + kSlack_m;
   }
 
-  /// A door opens by the way of a step, or closes.
-  void planDoor(std::size_t k, double period_s) {
-    const MovableBody& body = of.bodies_[k];
-    const double share = objects[k].door_share;
-    const double to = isRobotNear(k) ? 1 : objects[k].open_to;
-    const double most = body.door->shareRate() * period_s;
-    door_shares[k] = std::clamp(to, share - most, share + most);
-    if (door_shares[k] == share) return;
-    const double radius_m = body.door->turn_rad == 0 ? 1 : std::get<Cube>(body.shape).length_m / 2;
-    const double way =
-        std::abs((door_shares[k] - share) * (body.door->turn_rad == 0 ? body.door->slide_m : body.door->turn_rad));
-    speed_max_mps = std::max(speed_max_mps, way * radius_m / period_s);
-  }
-
-  bool isRobotNear(std::size_t door) const {
-    const MovableBody& body = of.bodies_[door];
-    const double within_m = body.door->opens_within_m;
-    if (within_m == 0) return false;
-    const auto closed = body.doorAt(0);
-    const Outline outline = body.outlineAt(closed);
-    std::vector<std::uint32_t> near;
-    scene.findMoving({closed.x, closed.y}, body.covering_radius_m + within_m + of.radius_max_m_, paths.size(), near);
-    return std::any_of(near.begin(), near.end(), [&](std::uint32_t robot) {
-      return distance(outline, centerOf(robot)) <= coverOf(robot) + within_m;
-    });
-  }
-  bool isDoor(std::uint32_t body) const { return !isRobot(body) && object(body).door.has_value(); }
+  bool isDriven(std::uint32_t body) const { return !isRobot(body) && object(body).isDriven(); }
 
   std::uint32_t robotCount() const { return static_cast<std::uint32_t>(paths.size()); }
   bool isRobot(std::uint32_t body) const { return body < paths.size(); }
@@ -112,15 +89,21 @@ struct ObjectMover::Search {
   /// The farthest that a body may move in this step.
   double reachOf(std::uint32_t body) const { return isRobot(body) ? std::abs(paths[body].clippedLength()) : reach_m; }
 
+  bool isCarried(std::size_t k) const {
+    if (of.bodies_[k].isDriven()) return false;
+    return std::any_of(of.belts_.begin(), of.belts_.end(),
+                       [&](const Belt& belt) { return belt.carries(centerOf(bodyOf(k))); });
+  }
+
   void add(std::uint32_t body) {
     if (std::exchange(is_member[body], 1) == 0) members.push_back(body);
   }
 
-  /// Objects that move, or that a robot drives against.
+  /// Objects that move or stand on a belt, or that a robot drives against.
   void begin() {
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      const bool is_opening = of.bodies_[k].door && door_shares[k] != objects[k].door_share;
-      if (is_opening || !objects[k].isAtRest()) add(bodyOf(k));
+      const bool is_driven_on = !plans.empty() && plans[k].way_m > 0;
+      if (is_driven_on || !objects[k].isAtRest() || isCarried(k)) add(bodyOf(k));
     }
     std::vector<std::uint32_t> near;
     for (std::uint32_t r = 0; r < robotCount(); ++r) {
@@ -153,8 +136,8 @@ struct ObjectMover::Search {
   /// @param touch_m distance of the centres within which the member may touch the other where that is now
   void meet(std::uint32_t member, std::uint32_t other, double touch_m) {
     const bool touches_where_it_is = isWithin(centerOf(member), centerOf(other), touch_m);
-    if (isRobot(other) && !moves(other)) return;  // an obstacle (addObstacles())
-    if (isDoor(member) && isDoor(other)) return;  // doors may be in each other's way, as in walls
+    if (isRobot(other) && !moves(other)) return;      // an obstacle (addObstacles())
+    if (isDriven(member) && isDriven(other)) return;  // planDriven() has kept them apart; doors may be in walls
     if (!isWithin(centerOf(member), centerOf(other), touch_m + reachOf(other))) return;
     // An object at rest that cannot be touched is no member yet; if it becomes one, it meets this one.
     if (!isRobot(other) && !is_member[other] && !touches_where_it_is) return;
@@ -187,12 +170,13 @@ struct ObjectMover::Search {
     PushingGroup group;
     group.reach_m = reach_m;
     group.speed_max_mps = speed_max_mps;
+    group.belts = of.belts_;
     for (const auto body : bodies) {
       if (isRobot(body)) {
         group.robots.push_back({&of.robots_[body], &moved_paths[body]});
       } else {
         const std::size_t k = body - paths.size();
-        group.objects.push_back({&object(body), &moved_objects[k], door_shares[k]});
+        group.objects.push_back({&object(body), &moved_objects[k], plans.empty() ? nullptr : &plans[k]});
       }
     }
     const auto robots = static_cast<std::uint32_t>(group.robots.size());
@@ -233,14 +217,14 @@ struct ObjectMover::Search {
       const Solid solid = scene.solid(found);
       if (!solid.heights.overlaps(heightsOf(body))) continue;
       if (static_cast<std::size_t>(found) < scene.stationaryCount()) {
-        if (!isDoor(body)) add_outline(solid.outline);
+        if (!isDriven(body)) add_outline(solid.outline);
         continue;
       }
       const auto moving = static_cast<std::uint32_t>(scene.movingIndex(found));
       if (isRobot(moving) && !moves(moving)) add_outline(Circle{centerOf(moving), coverOf(moving)});
     }
     const Bounds2D& surface = of.surface_;
-    if (isDoor(body)) return;
+    if (isDriven(body)) return;
     if (center.x - far_m < surface.x_min || center.x + far_m > surface.x_max || center.y - far_m < surface.y_min ||
         center.y + far_m > surface.y_max) {
       for (const auto& edge : of.edges_) add_outline(edge);
@@ -248,9 +232,20 @@ struct ObjectMover::Search {
   }
 };
 
-ObjectMover::ObjectMover(std::vector<MovableBody> objects, std::vector<PushingDisc> robots, const Bounds2D& surface)
-    : bodies_(std::move(objects)), robots_(std::move(robots)), edges_(edgesOf(surface)), surface_(surface) {
-  for (const auto& body : bodies_) cover_max_m_ = std::max(cover_max_m_, body.covering_radius_m);
+ObjectMover::ObjectMover(std::vector<MovableBody> objects, std::vector<Belt> belts, std::vector<PushingDisc> robots,
+                         const Bounds2D& surface)
+    : bodies_(std::move(objects)),
+      belts_(std::move(belts)),
+      robots_(std::move(robots)),
+      edges_(edgesOf(surface)),
+      surface_(surface) {
+  for (const auto& body : bodies_) {
+    cover_max_m_ = std::max(cover_max_m_, body.covering_radius_m);
+    has_driven_ |= body.isDriven();
+  }
+  for (const auto& belt : belts_) {
+    belt_speed_max_mps_ = std::max(belt_speed_max_mps_, std::sqrt(dot(belt.velocity_mps, belt.velocity_mps)));
+  }
   for (const auto& robot : robots_) radius_max_m_ = std::max(radius_max_m_, robot.radius_m);
 }
 
@@ -265,12 +260,18 @@ std::vector<Outline> ObjectMover::edgesOf(const Bounds2D& surface) {
           OrientedBox{{middle.x, surface.y_max + thick}, {1, 0}, half_x, thick}};
 }
 
-bool ObjectMover::move(const Scene& scene, const ParallelExecutor& workers, double period_s, std::span<Path> paths,
-                       std::span<ObjectMotion> objects) {
+bool ObjectMover::move(const Scene& scene, const ParallelExecutor& workers, double period_s, std::uint64_t seed,
+                       std::span<Path> paths, std::span<ObjectMotion> objects) {
   if (bodies_.empty()) return false;
-  Search search(*this, scene, period_s, paths, objects);
+  Search search(*this, scene, period_s, seed, paths, objects);
   search.begin();
-  if (search.members.empty()) return false;
+  bool has_waited = false;
+  for (std::size_t k = 0; k < search.plans.size(); ++k) {
+    if (!bodies_[k].walker || search.plans[k].way_m > 0) continue;
+    objects[k].walk = search.plans[k].walk;
+    has_waited = true;
+  }
+  if (search.members.empty()) return has_waited;
   search.grow();
   const auto groups = search.groups();
   workers.forEach(groups.size(), 1, [&](std::size_t g) {

@@ -16,7 +16,8 @@ namespace robosim {
 class ObjectMover {
  public:
   /// @param surface its edge is a wall for objects
-  ObjectMover(std::vector<MovableBody> objects, std::vector<PushingDisc> robots, const Bounds2D& surface);
+  ObjectMover(std::vector<MovableBody> objects, std::vector<Belt> belts, std::vector<PushingDisc> robots,
+              const Bounds2D& surface);
 
   /// Moves the objects for a step.
   /// @param scene frozen at the start of the step; its moving solids are the robots, then the objects
@@ -24,9 +25,10 @@ class ObjectMover {
   /// robots
   ///   that an object blocks are shortened (Path::end_fraction)
   /// @param objects of the constructor, in their order
-  /// @return whether any object has moved, or a path was shortened
-  bool move(const Scene& scene, const ParallelExecutor& workers, double period_s, std::span<Path> paths,
-            std::span<ObjectMotion> objects);
+  /// @param seed of the run
+  /// @return whether any object may have moved, or a path was shortened
+  bool move(const Scene& scene, const ParallelExecutor& workers, double period_s, std::uint64_t seed,
+            std::span<Path> paths, std::span<ObjectMotion> objects);
 
   const std::vector<MovableBody>& bodies() const { return bodies_; }
   /// The surroundings of the surface as boxes.
@@ -36,11 +38,14 @@ class ObjectMover {
   struct Search;
 
   std::vector<MovableBody> bodies_;
+  std::vector<Belt> belts_;
   std::vector<PushingDisc> robots_;
   std::vector<Outline> edges_;
   Bounds2D surface_;
   double cover_max_m_ = 0;   ///< of the objects
   double radius_max_m_ = 0;  ///< of the robots
+  double belt_speed_max_mps_ = 0;
+  bool has_driven_ = false;  ///< doors or walkers
 };
 
 }  // namespace robosim

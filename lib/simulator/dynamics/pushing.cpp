@@ -28,7 +28,7 @@ class PushingStep {
   PushingStep(PushingGroup& group, double period_s)
       : group_(group), period_s_(period_s), pushing_(group.pairs.size()), pushed_(group.objects.size()) {
     for (const auto& robot : group.robots) stops_.push_back(robot.path->end_fraction);
-    door_stops_.resize(group.objects.size(), 1);
+    stops_of_driven_.resize(group.objects.size(), 1);
     for (const auto& object : group.objects) {
       from_.objects.push_back(*object.motion);
       from_.outlines.push_back(object.body->outlineAt(object.motion->world_from_object));
@@ -44,7 +44,7 @@ class PushingStep {
       const double begin = i / static_cast<double>(parts);
       const double end = (i + 1) / static_cast<double>(parts);
       placeRobots(begin, end);
-      for (std::size_t k = 0; k < from_.objects.size(); ++k) setDoorSpeed(k, begin, end);
+      for (std::size_t k = 0; k < from_.objects.size(); ++k) setDrivenSpeed(k, begin, end);
       part_start_ = from_.objects;
       part_reach_m_ = islandReach(group_, (end - begin) * period_s_);
       for (const Island& island : islandsOf(group_, from_, to_.robots, (end - begin) * period_s_)) {
@@ -54,8 +54,11 @@ class PushingStep {
     for (std::size_t k = 0; k < from_.objects.size(); ++k) {
       ObjectMotion& motion = *group_.objects[k].motion;
       const ObjectMotion before = std::exchange(motion, from_.objects[k]);
-      if (!isDoor(k)) continue;
-      motion = {{}, motion.world_from_object, before.open_to, shareAt(k, 1)};
+      if (!isDriven(k)) continue;
+      const bool was_stopped = stops_of_driven_[k] < 1;
+      motion = {
+          {}, motion.world_from_object, before.open_to, shareAt(k, 1), was_stopped ? before.walk : planOf(k).walk};
+      if (was_stopped) ++motion.walk.waited_steps;
     }
     for (std::size_t r = 0; r < stops_.size(); ++r) group_.robots[r].path->end_fraction = stops_[r];
   }
@@ -82,19 +85,26 @@ class PushingStep {
     to_.robots[r] = path.centerAt(end);
   }
 
-  bool isDoor(std::size_t i) const { return group_.objects[i].body->door.has_value(); }
+  bool isDriven(std::size_t i) const { return group_.objects[i].plan && group_.objects[i].body->isDriven(); }
+  const DrivenPlan& planOf(std::size_t i) const { return *group_.objects[i].plan; }
   /// Share to which a door is open at a fraction of the step.
   double shareAt(std::size_t i, double fraction) const {
     const double from = start_[i].door_share;
-    return from + (group_.objects[i].door_share - from) * std::min(fraction, door_stops_[i]);
+    return from + (planOf(i).door_share - from) * std::min(fraction, stops_of_driven_[i]);
   }
-  mrpt::math::TPose2D doorAt(std::size_t i, double fraction) const {
-    return group_.objects[i].body->doorAt(shareAt(i, fraction));
+  /// Where a driven body is at a fraction of the step.
+  mrpt::math::TPose2D placeAt(std::size_t i, double fraction) const {
+    const MovableBody& body = *group_.objects[i].body;
+    if (body.door) return body.doorAt(shareAt(i, fraction));
+    const auto& from = start_[i].world_from_object;
+    const auto& to = planOf(i).world_from_object;
+    const double share = std::min(fraction, stops_of_driven_[i]);
+    return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share, from.phi};
   }
-  void setDoorSpeed(std::size_t i, double begin, double end) {
-    if (!isDoor(i)) return;
-    const auto from = doorAt(i, begin);
-    const auto to = doorAt(i, end);
+  void setDrivenSpeed(std::size_t i, double begin, double end) {
+    if (!isDriven(i)) return;
+    const auto from = placeAt(i, begin);
+    const auto to = placeAt(i, end);
     const double per_s = 1 / ((end - begin) * period_s_);
     ObjectMotion& motion = from_.objects[i];
     motion.vx_mps = (to.x - from.x) * per_s;
@@ -138,7 +148,7 @@ class PushingStep {
     for (const auto r : island.robots) placeRobot(r, begin, end);
     for (const auto p : island.pairs) pushing_[p] = 0;
     for (const auto i : island.objects) {
-      setDoorSpeed(i, begin, end);
+      setDrivenSpeed(i, begin, end);
       to_.objects[i] = from_.objects[i];
       to_.outlines[i] = from_.outlines[i];
       pushed_[i] = 0;
@@ -146,8 +156,8 @@ class PushingStep {
     }
     Impulses(group_, island, from_, to_.robots, duration_s).exchange(to_.objects, pushing_, pushed_);
     for (const auto i : island.objects) {
-      if (isDoor(i)) {
-        to_.objects[i].world_from_object = doorAt(i, end);
+      if (isDriven(i)) {
+        to_.objects[i].world_from_object = placeAt(i, end);
         outline(group_, i, to_);
         continue;
       }
@@ -156,20 +166,31 @@ class PushingStep {
     }
     shiftApart(group_, island, to_, pushing_);
     if (firstOverlap(island)) return Result::overlap;
-    return blockOverloaded(island, begin) ? Result::robots_blocked : Result::valid;
+    return blockOverloaded(island, begin, duration_s) ? Result::robots_blocked : Result::valid;
   }
 
   bool isAtRest(std::size_t r) const { return from_.robots[r] == to_.robots[r]; }
 
   void decelerate(std::size_t i, double duration_s) {
     ObjectMotion& motion = to_.objects[i];
-    if (motion.isAtRest()) return;
+    if (isDriven(i)) return;
     const MovableBody& body = *group_.objects[i].body;
-    const double left = std::max(0.0, 1 - body.deceleration() * duration_s / speedOf(body, motion));
-    motion.vx_mps *= left;
-    motion.vy_mps *= left;
+    const TPoint2D floor = floorVelocityUnder(group_, motion);
+    const ObjectSpeed over_floor = relativeTo(floor, motion);
+    if (over_floor.isAtRest()) return;
+    const double left = std::max(0.0, 1 - body.deceleration() * duration_s / speedOf(body, over_floor));
+    motion.vx_mps = over_floor.vx_mps * left;
+    motion.vy_mps = over_floor.vy_mps * left;
     motion.turn_radps *= left;
+    if (!isStill(floor)) {
+      motion.vx_mps += floor.x;
+      motion.vy_mps += floor.y;
+    }
   }
+  static ObjectSpeed relativeTo(const TPoint2D& floor, const ObjectSpeed& speed) {
+    return {speed.vx_mps - floor.x, speed.vy_mps - floor.y, speed.turn_radps};
+  }
+  static bool isStill(const TPoint2D& floor) { return floor.x == 0 && floor.y == 0; }
 
   void limitSpeed(ObjectMotion& motion) const {
     const double speed = portable::hypot(motion.vx_mps, motion.vy_mps);
@@ -186,7 +207,9 @@ class PushingStep {
     ObjectSpeed mean = motion;
     if (!pushed_[i]) {
       const MovableBody& body = *group_.objects[i].body;
-      if (motion.isAtRest()) duration_s = speedOf(body, before) / body.deceleration();
+      if (motion.isAtRest() && isStill(floorVelocityUnder(group_, before))) {
+        duration_s = speedOf(body, before) / body.deceleration();
+      }
       mean = {(motion.vx_mps + before.vx_mps) / 2, (motion.vy_mps + before.vy_mps) / 2,
               (motion.turn_radps + before.turn_radps) / 2};
     }
@@ -242,18 +265,18 @@ class PushingStep {
   }
 
   /// 4 of the description. @return whether a robot is blocked that was not before
-  bool blockOverloaded(const Island& island, double at) {
+  bool blockOverloaded(const Island& island, double at, double duration_s) {
     const auto pushes = [&](std::uint32_t p) { return pushing_[p] != 0 && group_.pairs[p].with == With::robot; };
     if (std::none_of(island.pairs.begin(), island.pairs.end(), pushes)) return false;
     Sets sets = pushedTogether(island);
     std::vector<double> needed_j(to_.objects.size() + stops_.size()), available_j(needed_j.size());
-    for (const auto i : island.objects) needed_j[sets.of(i)] += neededWork(i);
+    for (const auto i : island.objects) needed_j[sets.of(i)] += neededWork(i, duration_s);
     for (const auto r : island.robots) {
       const TPoint2D way = to_.robots[r] - from_.robots[r];
       available_j[sets.of(nodeOf(r))] += group_.robots[r].disc->push_max_n * std::sqrt(dot(way, way));
     }
     for (const auto i : island.objects) {
-      if (isDoor(i) && !to_.objects[i].isAtRest()) available_j[sets.of(i)] = std::numeric_limits<double>::infinity();
+      if (isDriven(i) && !to_.objects[i].isAtRest()) available_j[sets.of(i)] = std::numeric_limits<double>::infinity();
     }
     constexpr double kRoundingShare = 1e-6;
     return stopRobots(island, at, [&](std::size_t r) {
@@ -262,16 +285,19 @@ class PushingStep {
     });
   }
 
-  /// Work against friction that an object has not paid with its own energy.
-  double neededWork(std::size_t i) const {
-    if (isDoor(i)) return 0;
+  /// Work against friction on the floor that an object has not paid with its own energy.
+  double neededWork(std::size_t i, double duration_s) const {
+    if (isDriven(i)) return 0;
     const MovableBody& body = *group_.objects[i].body;
     const auto& before = from_.objects[i].world_from_object;
     const auto& after = to_.objects[i].world_from_object;
-    const double friction_j = body.friction_n * portable::hypot(portable::hypot(after.x - before.x, after.y - before.y),
-                                                                (after.phi - before.phi) * body.turn_radius_m);
+    const TPoint2D floor = floorVelocityUnder(group_, from_.objects[i]);
+    const double x_m = after.x - before.x - floor.x * duration_s;
+    const double y_m = after.y - before.y - floor.y * duration_s;
+    const double friction_j =
+        body.friction_n * portable::hypot(portable::hypot(x_m, y_m), (after.phi - before.phi) * body.turn_radius_m);
     const auto energy_of = [&](const ObjectMotion& motion) {
-      const double speed = speedOf(body, motion);
+      const double speed = speedOf(body, relativeTo(floor, motion));
       return body.mass_kg * speed * speed / 2;
     };
     return std::max(0.0, friction_j - std::max(0.0, energy_of(from_.objects[i]) - energy_of(to_.objects[i])));
@@ -291,9 +317,9 @@ class PushingStep {
   /// The end of 5 of the description: what pushes each other where bodies overlap stays where it is.
   void holdJammed(const Island& island, double at) {
     while (const PushingGroup::Pair* const pair = firstOverlap(island)) {
-      if (pair->with == With::robot && isDoor(pair->first) && !isAtRest(pair->second)) {
-        // A robot that drives against a door does not hold it, and one that drives ahead of it is not stopped by it.
-        if (!drivesTowards(*pair) && holdDoor(pair->first, at)) continue;
+      if (pair->with == With::robot && isDriven(pair->first) && !isAtRest(pair->second)) {
+        // A robot that drives against a driven body does not hold it, and one that drives ahead of it is not stopped.
+        if (!drivesTowards(*pair) && holdDriven(pair->first, at)) continue;
         stops_[pair->second] = at;
         to_.robots[pair->second] = from_.robots[pair->second];
         continue;
@@ -317,10 +343,10 @@ class PushingStep {
   void hold(std::size_t i, double at) {
     to_.objects[i] = {{}, from_.objects[i].world_from_object};
     to_.outlines[i] = from_.outlines[i];
-    door_stops_[i] = std::min(door_stops_[i], at);
+    stops_of_driven_[i] = std::min(stops_of_driven_[i], at);
   }
   /// @return whether it moved
-  bool holdDoor(std::size_t i, double at) {
+  bool holdDriven(std::size_t i, double at) {
     if (to_.objects[i].world_from_object == from_.objects[i].world_from_object) return false;
     hold(i, at);
     return true;
@@ -335,7 +361,7 @@ class PushingStep {
   PushingGroup& group_;
   double period_s_;
   std::vector<double> stops_;             ///< fraction of its path at which each robot ends
-  std::vector<double> door_stops_;        ///< by object: fraction of the step at which a door is blocked
+  std::vector<double> stops_of_driven_;   ///< by object: fraction of the step at which a driven body is blocked
   std::vector<ObjectMotion> start_;       ///< of the step
   std::vector<ObjectMotion> part_start_;  ///< of the part
   double part_reach_m_ = 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/contact.h"
+#include "dynamics/driven_plans.h"
 #include "dynamics/movable_body.h"
 #include "geometry/shapes/path.h"
 
@@ -15,7 +16,7 @@ struct PushingGroup {
   struct Object {
     const MovableBody* body;
     ObjectMotion* motion;
-    double door_share = 0;  ///< of a door, to which it is to be open at the end of the step
+    const DrivenPlan* plan = nullptr;  ///< of a driven body
   };
   struct Robot {
     const PushingDisc* disc;
@@ -30,18 +31,19 @@ struct PushingGroup {
   std::vector<Object> objects;
   std::vector<Robot> robots;
   std::vector<Outline> stationary;
+  std::span<const Belt> belts;
   std::vector<Pair> pairs;   ///< their order affects rounding only
   double reach_m = 0;        ///< no object may move farther in the step
   double speed_max_mps = 0;  ///< no object may be faster
 };
 
 /// Moves the objects of a group, and stops its robots where they are blocked, for a time step (doc/moving_objects.md).
-/// No two of its bodies overlap afterwards if none did before. Doors move evenly, as if their mass were infinite, and
-/// are blocked for the rest of the step like robots, by robots and by what is wedged.
+/// No two of its bodies overlap afterwards if none did before. Doors and walkers move evenly, as if their mass were
+/// infinite, and are blocked for the rest of the step like robots, by robots and by what is wedged.
 ///
 /// The step is divided into equal parts, in which the robots drive on along their paths. In each part, bodies that may
 /// touch form islands, each of which is computed alone:
-///  1. friction decelerates each object;
+///  1. friction decelerates each object, relative to the belt on which it stands;
 ///  2. bodies that touch and approach each other exchange impulses along the normal of their contact, without friction:
 ///     first those that bounce, then all until none approach (Catto, "Iterative dynamics with temporal coherence",
 ///     2005). Robots and stationary solids do not give way;

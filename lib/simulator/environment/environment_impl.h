@@ -75,7 +75,7 @@ struct Environment::Impl {
         bodies(*model, state.objects.orThose(model->world.objects)),
         scene(bodies.scene()),
         move_authorisation(ofRobots(fleet, moverOf), model->world.bounds),
-        object_mover(bodies.movable(), ofRobots(fleet, pushingDiscOf), model->world.bounds),
+        object_mover(moverOfObjects()),
         message_router(ofRobots(fleet, [](const auto& robot) { return robot.info.name; }), model->world.communication),
         robot_groups(fleet, model->period_s),
         limits(ofRobots(fleet, [](const auto& robot) { return robot.info.limits; })),
@@ -110,6 +110,7 @@ struct Environment::Impl {
   ///@{
   /// After State::objects or State::object_speeds were replaced.
   void noteMotions();
+  ObjectMover moverOfObjects() const;
   /// After State::objects were replaced by a list of other objects.
   void useObjects();
   /// Moves objects, and stops robots that they block, after the authorisation of moves.

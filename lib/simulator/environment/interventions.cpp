@@ -144,8 +144,8 @@ struct Environment::Impl::ApplyChange {
     if (!is_checked) return {};
     const auto& pose = object.body.world_from_body;
     const Bounds2D& surface = of.model->world.bounds;
-    const bool is_on_surface =
-        object.movable ? surface.covers(boundsOf(object.body.solid().outline)) : surface.contains({pose.x, pose.y});
+    const bool is_on_surface = object.movable || object.walker ? surface.covers(boundsOf(object.body.solid().outline))
+                                                               : surface.contains({pose.x, pose.y});
     if (!is_on_surface) return notOnSurface(object.name);
     return overlapFault(object.name, object.body.solid(), own);
   }

@@ -49,13 +49,24 @@ void add(Digest& digest, const Solid& solid) {
 }
 
 void add(Digest& digest, const WorldObject& object) {
-  const auto& [name, body, movable, door, line] = object;  // the name and the place in the file have no effect
+  const auto& [name, body, movable, door, walker, conveyor, line] =
+      object;  // the name and the place in the file have no effect
   add(digest, body);
   if (door) {
     const auto& [world_from_closed, slide_m, turn_rad, speed, opens_within_m, open_to, share] = *door;
     add(digest, world_from_closed);
     for (const double value : {slide_m, turn_rad, speed, opens_within_m, open_to, share}) digest.add(value);
   }
+  if (walker) {
+    const auto& [home, route, wanders_within_m, speed_mps, stops_within_m, walk] = *walker;
+    digest.add(Walker::streamOf(name));
+    for (const double value : {home.x, home.y, wanders_within_m, speed_mps, stops_within_m}) digest.add(value);
+    for (const auto& place : route) {
+      digest.add(place.x);
+      digest.add(place.y);
+    }
+  }
+  if (conveyor) digest.add(conveyor->speed_mps);
   if (!movable) return;
   const auto& [mass_kg, friction, restitution] = *movable;
   for (const double value : {mass_kg, friction, restitution}) digest.add(value);

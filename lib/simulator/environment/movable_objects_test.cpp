@@ -120,7 +120,72 @@ TEST(Doors, AreOpenedByInterventionsAndTheWorldFile) {
   EXPECT_NE(environment->apply({"test", PlaceBody{"door", 0, 0}}).find("is a door"), std::string::npos);
 }
 
-/// Robots that drive about among boxes and balls, in rows.
+/// The world of boxAheadOfRobot() with a person in place of the box.
+std::unique_ptr<Environment> personAheadOfRobot(const Walker& walker) {
+  return boxAheadOfRobot([&](World& world) {
+    WorldObject& object = world.objects[1];
+    object.name = "person";
+    object.movable.reset();
+    object.body.shape = Cylinder{0.25};
+    object.walker = walker;
+    object.walker->home = {object.body.world_from_body.x, object.body.world_from_body.y};
+  });
+}
+
+TEST(Walkers, StandInTheWayOfRobots) {
+  const auto environment = personAheadOfRobot({.route = {{1, 0.001}}});
+  drive(*environment, 40);
+  EXPECT_TRUE(environment->state().stalled[0]);
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.5, 1e-2);
+}
+
+TEST(Walkers, ContinueFromASavedState) {
+  const Walker walker{.wanders_within_m = 2, .speed_mps = 1.7};
+  const auto first = personAheadOfRobot(walker);
+  drive(*first, 37, 1);
+  const State saved = first->state();
+  EXPECT_GT(first->objects()[1].walker->walk.leg, 0u);
+  drive(*first, 30, 1);
+  const auto second = personAheadOfRobot(walker);
+  drive(*second, 5, -1);
+  second->restore(saved);
+  drive(*second, 30, 1);
+  EXPECT_EQ(second->state(), first->state());
+  EXPECT_EQ(second->digest(), first->digest());
+}
+
+TEST(Walkers, AreAddedAndPlacedByInterventions) {
+  const auto environment = personAheadOfRobot({.route = {{1, 2}}, .speed_mps = 1});
+  EXPECT_EQ(environment->apply({"test", PlaceBody{"person", 2, 0}}), "");
+  environment->step();
+  EXPECT_LT(placeOf(*environment, 1).x, 2) << "it walks on to the place of its route";
+  EXPECT_NE(environment->apply({"test", PlaceBody{"person", 0, 0}}).find("overlap 'robot'"), std::string::npos);
+  WorldObject other = environment->world().objects[1];
+  other.name = "other";
+  other.body.world_from_body = {-2, -2, 0};
+  other.walker = Walker{.home = {-2, -2}, .route = {{2, -2}}, .speed_mps = 1};
+  EXPECT_EQ(environment->apply({"test", AddObject{other}}), "");
+  for (int i = 0; i < 10; ++i) environment->step();
+  EXPECT_NEAR(placeOf(*environment, 2).x, -1, 1e-9);
+}
+
+TEST(Conveyors, CarryBoxesButNoRobots) {
+  const auto environment = boxAheadOfRobot([](World& world) {
+    WorldObject belt = world.objects[0];
+    belt.name = "belt";
+    belt.body.shape = Cube{6, 1};
+    belt.body.world_from_body = {0, 0, 0};
+    belt.body.center_z_m = -0.05;
+    belt.body.height_m = 0.1;
+    belt.conveyor = Conveyor{0.4};
+    world.objects.push_back(belt);
+  });
+  for (int i = 0; i < 20; ++i) environment->step();
+  EXPECT_EQ(environment->state().world_from_robot[0].x, 0);
+  EXPECT_NEAR(placeOf(*environment, 1).x, 1 + 2 * 0.4 - 0.4 * 0.4 / (2 * 0.5 * 9.81), 5e-3);
+}
+
+/// Robots that drive about among boxes, balls and people, in rows.
 std::unique_ptr<Environment> crowd(std::uint64_t seed, int threads) {
   Rng rng(seed);
   World world = emptyWorld(4);
@@ -139,6 +204,12 @@ std::unique_ptr<Environment> crowd(std::uint64_t seed, int threads) {
         WorldObject& object = world.objects.back();
         object.door = Door{.world_from_closed = object.body.world_from_body, .speed = 0.7, .opens_within_m = 0.5};
         (row == 3 ? object.door->slide_m : object.door->turn_rad) = 0.8;
+      } else if (kind == 4 && row == 1) {
+        addBox(world, {x_m, y_m, 0}, 0.1, 0.1);
+        WorldObject& object = world.objects.back();
+        object.movable.reset();
+        object.body.shape = Cylinder{0.25};
+        object.walker = Walker{.home = {x_m, y_m}, .wanders_within_m = 3, .speed_mps = rng.uniform(0.5, 2)};
       } else if (kind == 2) {
         addBox(world, {x_m, y_m, heading_rad}, rng.uniform(0.1, 0.5), rng.uniform(0.1, 0.25),
                {.mass_kg = rng.uniform(0.5, 5), .friction = rng.uniform(0.1, 0.7)});

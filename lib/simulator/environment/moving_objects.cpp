@@ -23,29 +23,41 @@ void Environment::Impl::noteMotions() {
       motion.open_to = object.door->open_to;
       motion.door_share = object.door->share;
     }
+    if (object.walker) motion.walk = object.walker->walk;
   }
 }
 
 void Environment::Impl::useObjects() {
   bodies.setObjects(objects());
-  object_mover = ObjectMover(bodies.movable(), ofRobots(fleet, pushingDiscOf), model->world.bounds);
+  object_mover = moverOfObjects();
+}
+
+ObjectMover Environment::Impl::moverOfObjects() const {
+  std::vector<Belt> belts;
+  for (const auto& object : objects()) {
+    if (object.conveyor) belts.push_back(Belt::from(object));
+  }
+  return {bodies.movable(), std::move(belts), ofRobots(fleet, pushingDiscOf), model->world.bounds};
 }
 
 void Environment::Impl::moveObjects() {
-  if (!object_mover.move(scene, workers, model->period_s, paths, motions)) return;
+  if (!object_mover.move(scene, workers, model->period_s, state.seed, paths, motions)) return;
   for (std::size_t i = 0; i < paths.size(); ++i) state.stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
   const std::vector<std::uint32_t> moving = movingObjects(objects());
-  bool have_moved = false;
+  bool have_changed = false;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     state.object_speeds[k] = motions[k];
-    have_moved |= objects()[moving[k]].body.world_from_body != motions[k].world_from_object;
+    const WorldObject& object = objects()[moving[k]];
+    have_changed |= object.body.world_from_body != motions[k].world_from_object ||
+                    (object.walker && object.walker->walk != motions[k].walk);
   }
-  if (!have_moved) return;
+  if (!have_changed) return;
   std::vector<WorldObject> moved = objects();
   for (std::size_t k = 0; k < motions.size(); ++k) {
     WorldObject& object = moved[moving[k]];
     object.body.world_from_body = motions[k].world_from_object;
     if (object.door) object.door->share = motions[k].door_share;
+    if (object.walker) object.walker->walk = motions[k].walk;
   }
   state.objects = ChangedObjects(std::move(moved));
 }

@@ -92,6 +92,10 @@ void RunDigest::add(std::span<const ObjectMotion> objects) {
     for (const double number : {pose.x, pose.y, pose.phi, object.vx_mps, object.vy_mps, object.turn_radps}) {
       of_objects_.add(number);
     }
+    if (object.walk == Walk()) continue;
+    for (const std::uint32_t number : {object.walk.leg, object.walk.is_returning ? 1u : 0u, object.walk.waited_steps}) {
+      of_objects_.add(number);
+    }
   }
 }
 

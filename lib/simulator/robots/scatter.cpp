@@ -167,6 +167,7 @@ class Scatterer {
       WorldObject& copy = world_.objects.emplace_back(*object);
       copy.name = scatter.nameOf(number);
       copy.body.world_from_body = pose;
+      if (copy.walker) copy.walker->home = {pose.x, pose.y};
       return;
     }
     RobotPlacement& copy = world_.robots.emplace_back(std::get<RobotPlacement>(scatter.copied));

@@ -116,17 +116,19 @@ std::string placeOf(const WorldObject& object) {
 }  // namespace
 
 void checkMovableObjects(const World& world, const std::string& world_file, ErrorList& errors) {
-  const auto is_movable = [](const WorldObject& object) { return object.movable.has_value(); };
-  if (std::none_of(world.objects.begin(), world.objects.end(), is_movable)) return;
+  // Doors may be in walls.
+  const auto is_free = [](const WorldObject& object) { return object.movable || object.walker; };
+  if (std::none_of(world.objects.begin(), world.objects.end(), is_free)) return;
   const std::vector<Solid> solids = startSolids(world);
   const Scene scene(solids, 0, world.bounds);
   std::vector<BodyId> near;
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     const WorldObject& object = world.objects[i];
-    if (!object.movable) continue;  // doors may be in walls
+    if (!is_free(object)) continue;
     const auto report = [&](const std::string& fault) {
       errors.add(world.fileOf(object.line, world_file), object.line.number,
-                 "the movable object '" + object.name + "' " + placeOf(object) + " " + fault);
+                 (object.walker ? "the walker '" : "the movable object '") + object.name + "' " + placeOf(object) +
+                     " " + fault);
     };
     const Bounds2D area = boundsOf(solids[i].outline);
     if (!world.bounds.covers(area)) {
@@ -142,7 +144,7 @@ void checkMovableObjects(const World& world, const std::string& world_file, Erro
         break;
       }
       const WorldObject& with = world.objects[other];
-      if (with.movable && other < i) continue;  // reported with that one
+      if (is_free(with) && other < i) continue;  // reported with that one
       report("overlaps the object '" + with.name + "' " + lineText(world, with.line, object.line, world_file) +
              "; move one of them");
     }

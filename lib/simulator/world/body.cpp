@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "base/digest.h"
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
+#include "base/random.h"
 
 namespace robosim {
 
@@ -40,5 +42,35 @@ mrpt::math::TPose2D Door::poseAt(double at_share, double length_m) const {
 }
 
 double Door::shareRate() const { return speed / std::abs(turn_rad == 0 ? slide_m : turn_rad); }
+
+std::uint32_t Walker::streamOf(const std::string& name) {
+  Digest digest;
+  digest.addBytes(name.data(), name.size());
+  return static_cast<std::uint32_t>(digest.value());
+}
+
+mrpt::math::TPoint2D Walker::targetOf(const Walk& on, std::uint64_t seed, std::uint32_t stream) const {
+  if (!route.empty()) return on.leg == route.size() ? home : route[on.leg];
+  Rng rng(seed, RandomPurpose::walker, stream, 0, on.leg);
+  // The root spreads the places evenly over the disc.
+  const double way_m = wanders_within_m * std::sqrt(rng.uniform());
+  const auto [sin, cos] = portable::sincos(rng.uniform(-M_PI, M_PI));
+  return {home.x + way_m * cos, home.y + way_m * sin};
+}
+
+Walk Walker::nextLeg(Walk on) const {
+  const auto places = static_cast<std::uint32_t>(route.size() + 1);
+  if (route.empty()) {
+    ++on.leg;
+  } else {
+    on.leg = (on.leg + (on.is_returning ? places - 1 : 1)) % places;
+  }
+  return on;
+}
+
+Walk Walker::turnedBack(Walk on) const {
+  if (!route.empty()) on.is_returning = !on.is_returning;
+  return nextLeg(on);
+}
 
 }  // namespace robosim

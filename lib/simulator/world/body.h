@@ -1,9 +1,12 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
 #include "base/xml_element.h"
@@ -71,16 +74,57 @@ struct Door {
   double shareRate() const;
 };
 
+/// How far a walker has come.
+struct Walk {
+  std::uint32_t leg = 0;           ///< index of the place to which it walks
+  bool is_returning = false;       ///< it walks its route backwards
+  std::uint32_t waited_steps = 0;  ///< since it last walked
+  bool operator==(const Walk&) const = default;
+};
+
+/// How a person walks, an upright cylinder (doc/moving_objects.md). It stops before whatever is in its way, and turns
+/// back after kPatience_s. Nothing pushes it.
+struct Walker {
+  static constexpr double kPatience_s = 5;
+
+  mrpt::math::TPoint2D home = {};                ///< where it starts, world frame
+  std::vector<mrpt::math::TPoint2D> route = {};  ///< where it walks from home, and then home again; empty: at random
+  double wanders_within_m = 0;                   ///< of home, without a route: to one random place after another
+  double speed_mps = 1.3;                        ///< > 0
+  double stops_within_m = 0.5;                   ///< of its rim: it stops before robots, doors and walkers ahead
+  Walk walk = {};                                ///< at present
+  bool operator==(const Walker&) const = default;
+
+  /// Of the random numbers of the walker of a name.
+  static std::uint32_t streamOf(const std::string& name);
+  /// Where it walks to on a leg.
+  /// @param seed of the run @param stream streamOf() its name
+  mrpt::math::TPoint2D targetOf(const Walk&, std::uint64_t seed, std::uint32_t stream) const;
+  /// At the end of a leg.
+  Walk nextLeg(Walk) const;
+  /// When the way of a leg stays blocked.
+  Walk turnedBack(Walk) const;
+};
+
+/// A belt let into the floor, a box that is not above it, along whose x axis it moves what stands on it
+/// (doc/moving_objects.md).
+struct Conveyor {
+  double speed_mps = 0;  ///< along the box's x axis, signed
+  bool operator==(const Conveyor&) const = default;
+};
+
 struct WorldObject {
   std::string name;
   Body body;
-  std::optional<Movable> movable = {};  ///< nullopt: robots do not push it
-  std::optional<Door> door = {};        ///< not with `movable`; its body is a box
+  std::optional<Movable> movable = {};    ///< nullopt: robots do not push it
+  std::optional<Door> door = {};          ///< its body is a box
+  std::optional<Walker> walker = {};      ///< its body is a cylinder
+  std::optional<Conveyor> conveyor = {};  ///< its body is a box. An object has at most one of these four
   SourceLine line;
   bool operator==(const WorldObject&) const = default;
 
   /// Whether it never moves.
-  bool isStationary() const { return !movable && !door; }
+  bool isStationary() const { return !movable && !door && !walker; }
 };
 
 }  // namespace robosim

@@ -1,6 +1,7 @@
 #include "world/body_xml.h"
 
 #include <charconv>
+#include <cmath>
 
 #include "base/angle_units.h"
 
@@ -83,17 +84,76 @@ Door readDoor(XmlReader& settings, double unit_m, Body& body) {
   return door;
 }
 
+std::uint32_t readCount(XmlReader& settings, const char* name, double max) {
+  const double value = settings.number(name, {0, max}, 0);
+  if (value != std::floor(value)) settings.errorAt(name, "is no whole number");
+  return static_cast<std::uint32_t>(value);
+}
+
+Walker readWalker(XmlReader& settings, double unit_m, const Body& body) {
+  Walker walker;
+  const auto point = [&](XmlReader& reader) {
+    const double x_m = reader.length("x", Bounds::any(), unit_m);
+    return mrpt::math::TPoint2D(x_m, reader.length("y", Bounds::any(), unit_m));
+  };
+  for (auto& to : settings.all("to")) {
+    walker.route.push_back(point(to));
+    to.finish();
+  }
+  walker.home = {body.world_from_body.x, body.world_from_body.y};
+  if (auto home = settings.child("home")) {
+    walker.home = point(*home);
+    home->finish();
+  }
+  if (walker.route.empty()) {
+    walker.wanders_within_m = settings.length("wanders_within", Bounds::positive(), unit_m);
+  } else if (settings.has("wanders_within")) {
+    settings.errorAt("wanders_within", "is given beside the places of <to>; keep one");
+  }
+  walker.speed_mps = settings.length("speed", Bounds::positive(), unit_m, walker.speed_mps);
+  walker.stops_within_m = settings.length("stops_within", Bounds::notNegative(), unit_m, walker.stops_within_m);
+  const double places = static_cast<double>(walker.route.size());
+  walker.walk.leg = readCount(settings, "leg", walker.route.empty() ? 1e9 : places);
+  walker.walk.is_returning = settings.flag("returning", false);
+  walker.walk.waited_steps = readCount(settings, "waited_steps", 1e9);
+  settings.finish();
+  if (!std::holds_alternative<Cylinder>(body.shape)) settings.error("is given to a <cube>; walkers are a <cylinder>");
+  return walker;
+}
+
+Conveyor readConveyor(XmlReader& settings, double unit_m, const Body& body) {
+  const Conveyor conveyor{settings.length("speed", Bounds::any(), unit_m)};
+  settings.finish();
+  if (!std::holds_alternative<Cube>(body.shape)) settings.error("is given to a <cylinder>; conveyors are a <cube>");
+  if (body.heights().z_max_m > 0) {
+    settings.error("is given to a box whose top is " + toText(body.heights().z_max_m, unit_m) +
+                   " above the floor; a belt is let into the floor: let z be minus half of its height");
+  }
+  return conveyor;
+}
+
 }  // namespace
 
 void readMotion(XmlReader& solid, double unit_m, WorldObject& object) {
   auto movable = solid.child("movable");
   auto door = solid.child("door");
+  auto walker = solid.child("walker");
+  auto conveyor = solid.child("conveyor");
   const bool is_stationary = solid.flag("stationary", !movable);
-  if (movable && door) door->error("is given beside <movable>; keep one");
+  const std::string* first = nullptr;
+  for (auto* motion : {&movable, &door, &walker, &conveyor}) {
+    if (!*motion) continue;
+    if (first) (*motion)->error("is given beside <" + *first + ">; keep one");
+    if (!first) first = &(*motion)->name();
+  }
   if (movable && is_stationary) {
     movable->error("is given to an object that is <stationary>1</stationary>; remove one of the two");
   }
-  if (door) {
+  if (walker) {
+    object.walker = readWalker(*walker, unit_m, object.body);
+  } else if (conveyor) {
+    object.conveyor = readConveyor(*conveyor, unit_m, object.body);
+  } else if (door) {
     object.door = readDoor(*door, unit_m, object.body);
   } else if (movable) {
     object.movable = readMovable(*movable, object.body);
@@ -135,6 +195,26 @@ XmlElement& writeBody(const std::string& name, const Body& body, double unit_m, 
   return element;
 }
 
+namespace {
+
+void writeWalker(const Walker& walker, double unit_m, bool has_place, XmlElement& element) {
+  const auto add_point = [&](const char* tag, const mrpt::math::TPoint2D& point) {
+    element.add(tag, "").attributes = {{"x", toText(point.x, unit_m)}, {"y", toText(point.y, unit_m)}};
+  };
+  element.attributes = {{"speed", toText(walker.speed_mps, unit_m)},
+                        {"stops_within", toText(walker.stops_within_m, unit_m)}};
+  if (walker.route.empty()) element.attributes.emplace_back("wanders_within", toText(walker.wanders_within_m, unit_m));
+  if (walker.walk.leg > 0) element.attributes.emplace_back("leg", std::to_string(walker.walk.leg));
+  if (walker.walk.is_returning) element.attributes.emplace_back("returning", "1");
+  if (walker.walk.waited_steps > 0) {
+    element.attributes.emplace_back("waited_steps", std::to_string(walker.walk.waited_steps));
+  }
+  if (has_place) add_point("home", walker.home);
+  for (const auto& place : walker.route) add_point("to", place);
+}
+
+}  // namespace
+
 void writeObject(const WorldObject& object, double unit_m, bool has_place, XmlElement& owner) {
   Body body = object.body;
   if (object.door) body.world_from_body = object.door->world_from_closed;
@@ -144,6 +224,10 @@ void writeObject(const WorldObject& object, double unit_m, bool has_place, XmlEl
     element.add("movable", "").attributes = {{"mass_kg", toText(object.movable->mass_kg)},
                                              {"friction", toText(object.movable->friction)},
                                              {"restitution", toText(object.movable->restitution)}};
+  }
+  if (object.walker) writeWalker(*object.walker, unit_m, has_place, element.add("walker", ""));
+  if (object.conveyor) {
+    element.add("conveyor", "").attributes = {{"speed", toText(object.conveyor->speed_mps, unit_m)}};
   }
   if (!object.door) return;
   const Door& door = *object.door;

@@ -14,11 +14,11 @@ namespace robosim {
 
 /// The <cylinder> or <cube> inside an element; nullopt if there is none.
 std::optional<XmlReader> solidIn(XmlReader& owner);
-/// Reads the settings of a <cylinder> or <cube>, except its name, <stationary>, <movable> and <door>.
+/// Reads the settings of a <cylinder> or <cube>, except its name, how it moves.
 /// @param has_place false: its place is given elsewhere
 Body readBody(XmlReader& solid, double unit_m, bool has_place);
-/// Reads how an object moves: <stationary>, <movable> and <door> of its <cylinder> or <cube>. The body of a door, which
-/// is given where it is closed, is put where it is.
+/// Reads how an object moves: <stationary>, <movable>, <door>, <walker> and <conveyor> of its <cylinder> or <cube>. The
+/// body of a door, which is given where it is closed, is put where it is.
 void readMotion(XmlReader& solid, double unit_m, WorldObject& object);
 /// Reads <x>, <y> and <direction>.
 mrpt::math::TPose2D readPose(XmlReader& reader, double unit_m);
@@ -27,7 +27,7 @@ std::optional<std::array<float, 3>> readColor(XmlReader& reader);
 
 /// Adds the <cylinder> or <cube> of an object.
 void writeObject(const WorldObject& object, double unit_m, bool has_place, XmlElement& owner);
-/// Adds the <cylinder> or <cube> of an object or a robot, without <stationary>, <movable> and <door>, and returns it.
+/// Adds the <cylinder> or <cube> of an object or a robot, without how it moves, and returns it.
 XmlElement& writeBody(const std::string& name, const Body& body, double unit_m, bool has_place, XmlElement& owner);
 void writePose(const mrpt::math::TPose2D& pose, double unit_m, XmlElement& element);
 /// The text of a <color>.

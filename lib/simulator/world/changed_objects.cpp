@@ -63,6 +63,7 @@ std::optional<std::vector<std::uint32_t>> movedBetween(const std::vector<WorldOb
     WorldObject placed = before[i];
     placed.body.world_from_body = after[i].body.world_from_body;
     if (placed.door && after[i].door) placed.door->share = after[i].door->share;
+    if (placed.walker && after[i].walker) placed.walker->walk = after[i].walker->walk;
     if (placed != after[i]) return std::nullopt;
     moved.push_back(static_cast<std::uint32_t>(i));
   }

@@ -32,7 +32,7 @@ class ChangedObjects {
   std::shared_ptr<const std::vector<WorldObject>> objects_;
 };
 
-/// The objects that move during a run, movable ones and doors, as indices of a list.
+/// The objects that move during a run, movable ones, doors and walkers, as indices of a list.
 std::vector<std::uint32_t> movingObjects(const std::vector<WorldObject>& objects);
 
 /// Indices of the objects at other places in a later list, which differs in nothing else; nullopt if it does.

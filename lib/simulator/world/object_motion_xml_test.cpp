@@ -61,6 +61,34 @@ TEST(ObjectMotionXml, ReadsHowObjectsMove) {
   EXPECT_NEAR(hinged.world_from_body.y, 1 + 0.5 * std::sin(M_PI_4), 1e-12);
 }
 
+TEST(ObjectMotionXml, ReadsWalkersAndConveyors) {
+  World world;
+  const std::string belt =
+      "<primitive><cube><name>belt</name><x>4</x><y>4</y><z>-0.05</z><length>2</length><width>1</width>"
+      "<height>0.1</height><conveyor speed='-0.3'/></cube></primitive>";
+  EXPECT_EQ(faultsOf(worldWithObjects(
+                         {movingPillar("anna", "0.25", "<walker speed='1'><to x='3' y='2'/><to x='3' y='5'/></walker>"),
+                          movingPillar("ben", "0.25", "<walker wanders_within='4' stops_within='1'/>"), belt}),
+                     &world),
+            Lines{});
+  EXPECT_EQ(world.objects[0].walker, (Walker{.home = {1, 2}, .route = {{3, 2}, {3, 5}}, .speed_mps = 1}));
+  EXPECT_EQ(world.objects[1].walker, (Walker{.home = {1, 2}, .wanders_within_m = 4, .stops_within_m = 1}));
+  EXPECT_FALSE(world.objects[1].isStationary());
+  EXPECT_EQ(world.objects[2].conveyor, Conveyor{-0.3});
+  EXPECT_TRUE(world.objects[2].isStationary());
+}
+
+TEST(ObjectMotionXml, RejectsFaultyWalkersAndConveyors) {
+  EXPECT_EQ(
+      faultsOf(worldWithObjects(
+          {movingPillar("p", "1", "<walker/>"),
+           movingPillar("q", "1", "<walker wanders_within='1'><to x='1' y='1'/></walker>"),
+           movingBox("r", "<walker wanders_within='1'/>"), movingPillar("s", "1", "<conveyor speed='1'/>"),
+           movingBox("t", "<conveyor speed='1'/>"), movingPillar("u", "1", "<walker wanders_within='1'/><movable/>"),
+           movingPillar("v", "1", "<walker wanders_within='1' leg='0.5'/>")})),
+      Lines{});
+}
+
 TEST(ObjectMotionXml, RejectsContradictionsAboutTheMotionOfObjects) {
   EXPECT_EQ(
       faultsOf(worldWithObjects({movingPillar("p", "1", "<stationary>1</stationary><movable/>"),

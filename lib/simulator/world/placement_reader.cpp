@@ -22,6 +22,9 @@ WorldObject PlacementReader::readPrimitive(XmlReader& primitive, Place place) {
     if (place != Place::given && object.door) {
       solid->error("is a door, which has its place in a wall; give it in an <object>");
     }
+    if (place != Place::given && object.walker && !object.walker->route.empty()) {
+      solid->error("is a walker with a route; give it in an <object>, or let it wander by wanders_within");
+    }
     solid->finish();
   } else {
     primitive.error("contains neither a <cylinder> nor a <cube>; add one");

@@ -43,6 +43,7 @@ class WorldMaker {
     for (auto i = rng_.below(6); i > 0; --i) {
       world.objects.push_back(
           {.name = name(), .body = body(), .movable = maybe() ? std::optional(movable()) : std::nullopt, .line = {}});
+      if (!world.objects.back().movable && maybe()) letMove(world.objects.back());
     }
     const auto robots = rng_.below(6);
     for (std::uint32_t i = 0; i < robots; ++i) world.robots.push_back(robot());
@@ -54,10 +55,22 @@ class WorldMaker {
 
  private:
   bool maybe() { return rng_.below(2) == 1; }
-  /// Makes a door of a box that robots do not push.
-  void makeDoor(WorldObject& object) {
+  /// Makes a walker of a cylinder, a door or a conveyor of a box.
+  void letMove(WorldObject& object) {
     const auto* cube = std::get_if<Cube>(&object.body.shape);
-    if (!cube || object.movable) return;
+    if (!cube) {
+      Walker walker{.home = {coordinate(), coordinate()}, .speed_mps = size(5), .stops_within_m = size(5)};
+      walker.walk = {.leg = rng_.below(3), .is_returning = maybe(), .waited_steps = rng_.below(20)};
+      if (maybe()) walker.wanders_within_m = size(9);
+      if (walker.wanders_within_m == 0) walker.route = {{coordinate(), coordinate()}, {coordinate(), coordinate()}};
+      object.walker = walker;
+      return;
+    }
+    if (maybe()) {
+      object.body.center_z_m = -object.body.height_m;
+      object.conveyor = Conveyor{maybe() ? size(3) : -size(3)};
+      return;
+    }
     Door door{.world_from_closed = object.body.world_from_body, .speed = size(5)};
     (maybe() ? door.slide_m : door.turn_rad) = maybe() ? size(3) : -size(3);
     door.opens_within_m = maybe() ? size(3) : 0;

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/object_mover.h"
@@ -16,7 +17,7 @@ struct ObjectWorld {
     door.world_from_closed = closed;
     const Body body{.shape = Cube{length_m, 0.1}, .world_from_body = closed, .center_z_m = 0.25, .height_m = 0.5};
     bodies.push_back(MovableBody::from({.name = "", .body = body, .door = door, .line = {}}));
-    objects.push_back({{}, bodies.back().doorAt(door.share), door.open_to, door.share});
+    objects.push_back({{}, bodies.back().doorAt(door.share), door.open_to, door.share, {}});
     return objects.size() - 1;
   }
   /// @return its index
@@ -25,6 +26,18 @@ struct ObjectWorld {
   }
   std::size_t addDisc(const mrpt::math::TPose2D& at, double radius_m, const Movable& movable = {}) {
     return add({.shape = Cylinder{radius_m}, .world_from_body = at, .center_z_m = 0.25, .height_m = 0.5}, movable);
+  }
+  /// A person of 0.25 m radius, whose home is where it is.
+  std::size_t addWalker(const mrpt::math::TPoint2D& at, Walker walker, const std::string& name = "walker") {
+    walker.home = at;
+    const Body body{.shape = Cylinder{0.25}, .world_from_body = {at.x, at.y, 0}, .center_z_m = 0.85, .height_m = 1.7};
+    bodies.push_back(MovableBody::from({.name = name, .body = body, .walker = std::move(walker), .line = {}}));
+    objects.push_back({{}, body.world_from_body});
+    return objects.size() - 1;
+  }
+  void addConveyor(const mrpt::math::TPose2D& at, double length_m, double width_m, double speed_mps) {
+    const Body body{.shape = Cube{length_m, width_m}, .world_from_body = at, .center_z_m = -0.05, .height_m = 0.1};
+    belts.push_back(Belt::from({.name = "", .body = body, .conveyor = Conveyor{speed_mps}, .line = {}}));
   }
   std::size_t addRobot(const mrpt::math::TPose2D& at, double speed_mps, double push_max_n = 1000,
                        double radius_m = 0.25) {
@@ -54,6 +67,7 @@ struct ObjectWorld {
 
   Bounds2D surface;
   std::vector<MovableBody> bodies;
+  std::vector<Belt> belts;
   std::vector<ObjectMotion> objects;
   std::vector<PushingDisc> robots;
   std::vector<mrpt::math::TPose2D> poses;  ///< of the robots
