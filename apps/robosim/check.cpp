@@ -58,7 +58,7 @@ std::string startText(const World& world, const mrpt::math::TPose2D& pose) {
   return "";
 }
 
-/// "6, 1 of them hot, 3 movable, 2 doors": how many objects there are, and how many of those that are special.
+/// "6, 1 of them hot, 3 movable, 1 door": how many objects there are, and how many of those that are special.
 std::string objectsText(const World& world) {
   std::size_t hot = 0, movable = 0, doors = 0, people = 0, belts = 0;
   for (const auto& object : world.objects) {
@@ -69,10 +69,13 @@ std::string objectsText(const World& world) {
     belts += object.conveyor ? 1 : 0;
   }
   std::string text = std::to_string(world.objects.size()) + ", " + std::to_string(hot) + " of them hot";
-  for (const auto& [count, kind] :
-       {std::pair{movable, "movable"}, {doors, "doors"}, {people, "people"}, {belts, "belts"}}) {
-    if (count > 0) text += ", " + std::to_string(count) + " " + kind;
-  }
+  const auto add = [&](std::size_t count, const char* one, const char* several) {
+    if (count > 0) text += ", " + std::to_string(count) + " " + (count == 1 ? one : several);
+  };
+  add(movable, "movable", "movable");
+  add(doors, "door", "doors");
+  add(people, "person", "people");
+  add(belts, "belt", "belts");
   return text;
 }
 

@@ -9,7 +9,7 @@ import { FOLDER } from './program.mjs';
 
 const ORIGIN = 'http://console.test';
 const TYPES = { '.html': 'text/html; charset=utf-8', '.css': 'text/css', '.js': 'text/javascript', '.svg': 'image/svg+xml' };
-const [, CSP] = readFileSync(join(FOLDER, 'lib/controller/console/web_answer.cpp'), 'utf8').match(/"Content-Security-Policy",\s*((?:"[^"]*"\s*)+)/);
+const [, CSP] = readFileSync(join(FOLDER, 'lib/foundation/web/answer.cpp'), 'utf8').match(/"Content-Security-Policy",\s*((?:"[^"]*"\s*)+)/);
 const HEADERS = { 'content-security-policy': CSP.replace(/"\s*"/g, '').replaceAll('"', '').trim() };
 const JPEG = readFileSync(join(FOLDER, 'doc/images/camera.jpg'));
 const LONG_NAME = 'The_robot_with_the_longest_name_of_the_team_which_is_'.padEnd(120, 'abcdefghij_');

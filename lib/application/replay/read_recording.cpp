@@ -20,7 +20,10 @@ RecordingContents readRecording(const std::string& rawlog, const RecordingParts&
   while (const auto observation = reader.next()) {
     if (progress) progress(reader.entries());
     if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) {
-      if (sensors) continue;
+      if (sensors) {
+        if (read.figure) read.figure->addComment(comment->text);
+        continue;
+      }
       if (const auto note = RunNote::parse(comment->text)) {
         sensors = RecordedSensors::of(*note);
         if (read.figure) read.figure->setRun(*note);

@@ -15,6 +15,7 @@
 #include "rendering/run_paths.h"
 #include "replay/value_text.h"
 #include "robots/world_source.h"
+#include "run/outputs/intervention_note.h"
 
 namespace robosim {
 namespace {
@@ -60,6 +61,11 @@ void RecordingFigure::add(const CObservation& observation, double time_s) {
   } else if (is_of_robosim_ && label.sensor == kInbox) {
     addMessages(label.robot, observation, time_s);
   }
+}
+
+void RecordingFigure::addComment(const std::string& text) {
+  if (!world_) return;
+  if (auto after = objectsAfter(text, objects_.orThose(world_->world.objects))) objects_ = std::move(*after);
 }
 
 void RecordingFigure::addPose(std::size_t index, const TPose2D& pose, bool is_truth, double time_s) {
@@ -146,6 +152,7 @@ std::string RecordingFigure::draw(PictureFormat format, const FigurePage& page, 
   DrawnRun run;
   run.title = loaded.world.name + ", " + fixed(duration_s_, 1) + " s";
   run.has_names = layers.names;
+  run.objects = objects_;
   bool has_poses = false;
   std::map<std::size_t, std::size_t> drawn_index;  // by index in robots_
   for (const auto& of_world : loaded.fleet.robots) {

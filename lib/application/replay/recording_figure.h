@@ -31,6 +31,8 @@ class RecordingFigure {
   /// Adds the next observation. @param time_s since the first one
   /// @throws RecordingError for an observation that a recording by RoboSim cannot have
   void add(const mrpt::obs::CObservation& observation, double time_s);
+  /// A comment, which may say where objects are. @throws ConfigError for an invalid one
+  void addComment(const std::string& text);
 
   /// @return the file @throws ConfigError for a recording without poses
   /// @param layers of which the sensors have no effect
@@ -57,6 +59,7 @@ class RecordingFigure {
 
   std::string rawlog_;
   std::optional<LoadedWorld> world_;  ///< of a recording by RoboSim that contains it
+  ChangedObjects objects_;            ///< at the end, instead of those of the world
   bool is_of_robosim_ = false;
   std::vector<Robot> robots_;  ///< in the order of their first appearance
   std::map<std::string, std::size_t> index_of_;

@@ -90,13 +90,7 @@ class RobosimRecording final : public RecordedMoments {
   /// Notes what robots and the interventions before the last step that was read have made of the objects.
   void noteObjects() {
     for (const auto& comment : steps_.comments()) {
-      if (auto all = objectsIn(comment)) objects_ = std::move(*all);
-      if (auto moved = movedBy(comment, objects_.orThose(world_.world.objects))) objects_ = std::move(*moved);
-      const auto note = InterventionNote::parse(comment);
-      if (!note) continue;
-      const auto& before = objects_.orThose(world_.world.objects);
-      std::vector<WorldObject> after = withChange(before, note->intervention.change);
-      if (after != before) objects_ = ChangedObjects(std::move(after));
+      if (auto after = objectsAfter(comment, objects_.orThose(world_.world.objects))) objects_ = std::move(*after);
     }
   }
 

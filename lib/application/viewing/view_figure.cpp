@@ -17,6 +17,7 @@ void writeViewFigure(ViewSource& source, const ViewTimes& times, const std::stri
   const LoadedWorld& loaded = source.world();
   layers.paths_from_s = times.from_s.value_or(0);
   DrawnRun run = drawnRun(loaded.fleet, source.snapshot(), source.paths(), layers, &source.events());
+  run.objects = source.snapshot().objects;
   if (source.snapshot().time_s > 0) run.title = loaded.world.name + ", " + fixed(source.snapshot().time_s, 1) + " s";
   whole.write(runFigure(requirePictureFormat(file), loaded.world, loaded.fleet, run, page));
   whole.commit();

@@ -6,8 +6,8 @@
 #include "base/log_limiter.h"
 #include "console/console_session.h"
 #include "console/page.h"
-#include "console/web_server.h"
 #include "net/audit.h"
+#include "web/server.h"
 
 namespace robosim {
 namespace {
@@ -17,7 +17,7 @@ WebServer::Options serverOptions(const Console::Options& options) {
   server.listen = options.listen;
   server.tls = options.tls;
   server.files = pageFiles();
-  server.protocol = kPageProtocol;
+  server.protocols = {kPageProtocol};
   server.log = options.log;
   return server;
 }
@@ -42,7 +42,8 @@ struct Console::Impl {
 
   WebPageEvents events() {
     return {
-        .opened = [this](PageId page, const std::string& peer) { perform(session.pageOpened(page, peer, now())); },
+        .opened = [this](PageId page,
+                         const WebOpening& opening) { perform(session.pageOpened(page, opening.peer, now())); },
         .received = [this](PageId page, std::string_view text) { perform(session.pageMessage(page, text, now())); },
         .received_invalid = [this](PageId page, const std::string& why) { perform(session.pageInvalid(page, why)); },
         .closed = [this](PageId page) { perform(session.pageClosed(page)); },

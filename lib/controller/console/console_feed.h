@@ -5,8 +5,8 @@
 #include <string>
 
 #include "console/map_view.h"
-#include "console/web_message.h"
 #include "remote/robot_news.h"
+#include "web/message.h"
 
 namespace robosim {
 

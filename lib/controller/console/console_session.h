@@ -19,9 +19,9 @@
 #include "console/page_outbox.h"
 #include "console/run_view.h"
 #include "console/team_events.h"
-#include "console/web_message.h"
 #include "net/access.h"
 #include "remote/orders.h"
+#include "web/message.h"
 
 namespace robosim {
 

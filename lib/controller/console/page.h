@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "console/web_server.h"
+#include "web/server.h"
 
 namespace robosim {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "console/console_feed.h"
-#include "console/web_message.h"
+#include "web/message.h"
 
 namespace robosim {
 

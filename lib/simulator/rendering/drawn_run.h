@@ -12,6 +12,7 @@
 #include "geometry/shapes/solid.h"
 #include "hardware/sensor_info.h"
 #include "rendering/detail_level.h"
+#include "world/changed_objects.h"
 #include "world/world.h"
 
 namespace robosim {
@@ -75,8 +76,9 @@ struct DrawnRun {
   std::vector<std::optional<mrpt::math::TPose2D>> world_from_robot{};
   std::vector<RunEvent> events{};
   std::vector<SensedArea> sensed{};
-  bool has_names = true;   ///< whether the names of robots and hot objects are written
-  bool has_starts = true;  ///< whether the beginning of each path has a ring
+  ChangedObjects objects{};  ///< where they are then, instead of the world's
+  bool has_names = true;     ///< whether the names of robots and hot objects are written
+  bool has_starts = true;    ///< whether the beginning of each path has a ring
 };
 
 /// The area that a picture of a run covers: the world's bounds, every object, map and path.

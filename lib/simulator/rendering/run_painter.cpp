@@ -69,7 +69,7 @@ void RunPainter::paintGround() {
   paintEchoes();
   paintSightLines();
   drawMaps(figure_, world_);
-  drawObjects(figure_, world_.objects);
+  drawObjects(figure_, run_.objects.orThose(world_.objects));
 }
 
 void RunPainter::paintFreeAreas() {
@@ -164,7 +164,7 @@ void RunPainter::paintNames() {
   for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
     if (const auto at = robotPixel(i)) names.keepClear(*at, robotRadius(i), robotRadius(i));
   }
-  names.writeHotObjects(world_.objects);
+  names.writeHotObjects(run_.objects.orThose(world_.objects));
   if (level_.is_crowded) return;
   for (const std::size_t i : fromOutside()) {
     names.write(fleet_.robots[i].info.name, *robotPixel(i), robotRadius(i), robotRadius(i),

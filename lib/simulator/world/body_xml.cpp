@@ -68,8 +68,9 @@ Door readDoor(XmlReader& settings, double unit_m, Body& body) {
     door.speed = settings.length("speed", Bounds::positive(), unit_m, door.speed);
     if (door.slide_m == 0) settings.errorAt("slide", "is 0, so the door never opens; give the length of its way");
   } else {
-    door.turn_rad = kRadPerDeg * settings.number("turn_deg", {-360, 360});
-    door.speed = kRadPerDeg * settings.number("speed_degps", Bounds::positive(3600), 45);
+    // As writeObject() writes them: exactly.
+    door.turn_rad = settings.length("turn_deg", {-360, 360}, kRadPerDeg);
+    door.speed = settings.length("speed_degps", Bounds::positive(3600), kRadPerDeg, 45 * kRadPerDeg);
     if (door.turn_rad == 0) settings.errorAt("turn_deg", "is 0, so the door never opens; give an angle");
   }
   door.opens_within_m = settings.length("opens_within", Bounds::notNegative(), unit_m, 0);
@@ -86,7 +87,7 @@ Door readDoor(XmlReader& settings, double unit_m, Body& body) {
 
 std::uint32_t readCount(XmlReader& settings, const char* name, double max) {
   const double value = settings.number(name, {0, max}, 0);
-  if (value != std::floor(value)) settings.errorAt(name, "is no whole number");
+  if (value != std::floor(value)) settings.errorAt(name, "is no whole number; write one");
   return static_cast<std::uint32_t>(value);
 }
 
@@ -106,7 +107,8 @@ Walker readWalker(XmlReader& settings, double unit_m, const Body& body) {
     home->finish();
   }
   if (walker.route.empty()) {
-    walker.wanders_within_m = settings.length("wanders_within", Bounds::positive(), unit_m);
+    walker.wanders_within_m = settings.length("wanders_within", Bounds::positive(), unit_m, 0);
+    if (walker.wanders_within_m == 0) settings.error("needs the places of <to> to which it walks, or wanders_within");
   } else if (settings.has("wanders_within")) {
     settings.errorAt("wanders_within", "is given beside the places of <to>; keep one");
   }
@@ -124,8 +126,9 @@ Walker readWalker(XmlReader& settings, double unit_m, const Body& body) {
 Conveyor readConveyor(XmlReader& settings, double unit_m, const Body& body) {
   const Conveyor conveyor{settings.length("speed", Bounds::any(), unit_m)};
   settings.finish();
-  if (!std::holds_alternative<Cube>(body.shape)) settings.error("is given to a <cylinder>; conveyors are a <cube>");
-  if (body.heights().z_max_m > 0) {
+  if (!std::holds_alternative<Cube>(body.shape)) {
+    settings.error("is given to a <cylinder>; conveyors are a <cube>");
+  } else if (body.heights().z_max_m > 0) {
     settings.error("is given to a box whose top is " + toText(body.heights().z_max_m, unit_m) +
                    " above the floor; a belt is let into the floor: let z be minus half of its height");
   }

@@ -86,7 +86,14 @@ TEST(ObjectMotionXml, RejectsFaultyWalkersAndConveyors) {
            movingBox("r", "<walker wanders_within='1'/>"), movingPillar("s", "1", "<conveyor speed='1'/>"),
            movingBox("t", "<conveyor speed='1'/>"), movingPillar("u", "1", "<walker wanders_within='1'/><movable/>"),
            movingPillar("v", "1", "<walker wanders_within='1' leg='0.5'/>")})),
-      Lines{});
+      (Lines{"a.xml:2: <walker>: needs the places of <to> to which it walks, or wanders_within",
+             "a.xml:3: <walker wanders_within=\"1\">: is given beside the places of <to>; keep one",
+             "a.xml:4: <walker>: is given to a <cube>; walkers are a <cylinder>",
+             "a.xml:5: <conveyor>: is given to a <cylinder>; conveyors are a <cube>",
+             "a.xml:6: <conveyor>: is given to a box whose top is 1 above the floor; a belt is let into the "
+             "floor: let z be minus half of its height",
+             "a.xml:7: <walker>: is given beside <movable>; keep one",
+             "a.xml:8: <walker leg=\"0.5\">: is no whole number; write one"}));
 }
 
 TEST(ObjectMotionXml, RejectsContradictionsAboutTheMotionOfObjects) {

@@ -162,10 +162,10 @@ TEST(WorldReader, AcceptsABodyBesidesAModel) {
 TEST(WorldReader, RejectsUnknownTags) {
   EXPECT_EQ(faults("<worlds/>"),
             Lines{"a.xml:1: <worlds>: is not a world; the first element of a world file is <world>"});
-  EXPECT_EQ(
-      faults(worldOf({pillar("p", "1", "<colour>1 0 0</colour>")})),
-      Lines{"a.xml:2: <colour>: unknown tag in <cylinder>; accepted here are: color, direction, door, height, hot, "
-            "movable, name, radius, reflectivity, stationary, x, y, z"});
+  EXPECT_EQ(faults(worldOf({pillar("p", "1", "<colour>1 0 0</colour>")})),
+            Lines{"a.xml:2: <colour>: unknown tag in <cylinder>; accepted here are: color, conveyor, direction, door, "
+                  "height, hot, "
+                  "movable, name, radius, reflectivity, stationary, walker, x, y, z"});
   EXPECT_EQ(faults(worldOf({"<primitve/>"})),
             (Lines{"a.xml:2: <shape>: contains neither a <primitive> nor a <robot>; add one",
                    "a.xml:2: <primitve>: unknown tag in <shape>; accepted here are: primitive, robot"}));

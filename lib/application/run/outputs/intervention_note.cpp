@@ -90,4 +90,14 @@ std::optional<ChangedObjects> objectsIn(const std::string& text) {
   return ChangedObjects(std::move(objects));
 }
 
+std::optional<ChangedObjects> objectsAfter(const std::string& text, const std::vector<WorldObject>& before) {
+  if (auto all = objectsIn(text)) return all;
+  if (auto moved = movedBy(text, before)) return moved;
+  const auto note = InterventionNote::parse(text);
+  if (!note) return std::nullopt;
+  std::vector<WorldObject> after = withChange(before, note->intervention.change);
+  if (after == before) return std::nullopt;
+  return ChangedObjects(std::move(after));
+}
+
 }  // namespace robosim

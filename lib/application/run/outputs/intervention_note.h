@@ -30,5 +30,8 @@ std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now)
 std::optional<ChangedObjects> movedBy(const std::string& text, const std::vector<WorldObject>& before);
 /// The objects in such a comment; nullopt if it is no note of them. @throws ConfigError for an invalid object
 std::optional<ChangedObjects> objectsIn(const std::string& text);
+/// The objects after a comment of a recording, from those before: by interventions, by robots that have moved them, or
+/// by a list of all; nullopt for a comment that changes none. @throws ConfigError for an invalid change or object
+std::optional<ChangedObjects> objectsAfter(const std::string& text, const std::vector<WorldObject>& before);
 
 }  // namespace robosim

@@ -1,4 +1,4 @@
-#include "console/origin.h"
+#include "web/origin.h"
 
 #include <algorithm>
 #include <cctype>

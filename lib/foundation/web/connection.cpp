@@ -1,4 +1,4 @@
-#include "console/web_connection.h"
+#include "web/connection.h"
 
 #include <utility>
 
@@ -115,12 +115,15 @@ void WebConnection::close() {
 
 void WebConnection::upgrade() {
   const WebRequest& request = parser_->get();
-  if (!shared_.may_open(textOf(request[http::field::origin]), textOf(request[http::field::host]),
-                        textOf(request[http::field::sec_websocket_protocol]))) {
+  const auto protocol =
+      shared_.choose_protocol(textOf(request[http::field::origin]), textOf(request[http::field::host]),
+                              textOf(request[http::field::sec_websocket_protocol]));
+  if (!protocol) {
     send(refusalOf(http::status::forbidden, hasTls()));
     return;
   }
-  const auto page = shared_.opened(*this);
+  protocol_ = *protocol;
+  const auto page = shared_.opened(*this, textOf(request.target()));
   if (!page) {
     send(refusalOf(http::status::service_unavailable, hasTls()));
     return;
@@ -139,7 +142,7 @@ void WebConnection::upgrade() {
   socket_->set_option(websocket::stream_base::decorator([this](websocket::response_type& response) {
     addSecurityHeaders(response, hasTls());
     if (response.result() == http::status::switching_protocols) {
-      response.set(http::field::sec_websocket_protocol, shared_.options.protocol);
+      response.set(http::field::sec_websocket_protocol, protocol_);
     }
   }));
   socket_->auto_fragment(false);
@@ -160,7 +163,7 @@ void WebConnection::upgrade() {
 }
 
 void WebConnection::readMessage() {
-  socket_->async_read_some(buffer_, kMaxMessageBytes,
+  socket_->async_read_some(buffer_, kReadBytes,
                            [self = shared_from_this()](const Error& error, std::size_t) { self->takeMessage(error); });
 }
 
@@ -174,14 +177,15 @@ void WebConnection::takeMessage(const Error& error) {
   if (!is_disconnecting_) message_.append(static_cast<const char*>(bytes.data()), bytes.size());
   buffer_.consume(buffer_.size());
   std::string why;
-  if (!is_disconnecting_ && socket_->got_binary()) why = "a binary message; messages are text";
-  if (!is_disconnecting_ && message_.size() > kMaxMessageBytes) {
-    why = "a message of more than " + std::to_string(kMaxMessageBytes) + " bytes";
+  const bool is_binary = socket_->got_binary();
+  if (!is_disconnecting_ && is_binary && !shared_.events.received_binary) why = "a binary message; messages are text";
+  if (!is_disconnecting_ && message_.size() > shared_.options.max_message_bytes) {
+    why = "a message of more than " + std::to_string(shared_.options.max_message_bytes) + " bytes";
   }
   if (!why.empty()) {
     shared_.events.received_invalid(page_, why);
   } else if (!is_disconnecting_ && socket_->is_message_done()) {
-    shared_.events.received(page_, std::exchange(message_, ""));
+    (is_binary ? shared_.events.received_binary : shared_.events.received)(page_, std::exchange(message_, ""));
   }
   if (!is_over_) readMessage();
 }

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "console/web_message.h"
 #include "net/tls.h"
+#include "web/message.h"
 
 namespace robosim {
 
@@ -20,11 +20,18 @@ struct WebFile {
   std::span<const unsigned char> bytes;
 };
 
+/// A WebSocket that was opened.
+struct WebOpening {
+  std::string peer;    ///< address
+  std::string target;  ///< of the request: "/?token=…"
+};
+
 /// What a server of pages calls, in its thread.
 struct WebPageEvents {
-  std::function<void(PageId page, const std::string& peer)> opened;
+  std::function<void(PageId page, const WebOpening& opening)> opened;
   std::function<void(PageId page, std::string_view text)> received;
-  /// The page has sent a frame that is not a text message within the limits. Must call WebServer::disconnect().
+  std::function<void(PageId page, std::string_view bytes)> received_binary = {};  ///< null: such messages are invalid
+  /// The page has sent a message that is not within the limits. Must call WebServer::disconnect().
   std::function<void(PageId page, const std::string& why)> received_invalid;
   std::function<void(PageId page)> closed;
   /// The next message; null for none. Called after WebServer::wake() and after each message sent, when the connection
@@ -50,7 +57,11 @@ class WebServer {
     std::string listen = "127.0.0.1:0";  ///< "host:port"
     std::optional<TlsIdentity> tls;      ///< absent: without TLS
     std::vector<WebFile> files;
-    std::string protocol;  ///< WebSocket subprotocol; pages with another are refused
+    /// WebSocket subprotocols, the preferred one first; pages that offer none of them are refused.
+    std::vector<std::string> protocols;
+    std::size_t max_message_bytes = 4096;  ///< of a page's message
+    /// Whether a page of an origin may connect, by its headers; null: those of this server only (isSameOrigin()).
+    std::function<bool(const std::string& origin, const std::string& host)> may_open = {};
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
   };
 

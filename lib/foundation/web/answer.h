@@ -6,7 +6,7 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 
-#include "console/web_server.h"
+#include "web/server.h"
 
 namespace robosim {
 

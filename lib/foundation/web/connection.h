@@ -12,9 +12,9 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
-#include "console/web_answer.h"
-#include "console/web_server.h"
-#include "console/web_stream.h"
+#include "web/answer.h"
+#include "web/server.h"
+#include "web/stream.h"
 
 namespace robosim {
 
@@ -25,10 +25,13 @@ struct SharedByConnections {
   const WebServer::Options& options;
   const WebPageEvents& events;
   boost::asio::ssl::context* tls;  ///< null for none
-  /// Whether a WebSocket may be opened; `offered` is what the page names as the subprotocol.
-  std::function<bool(const std::string& origin, const std::string& host, const std::string& offered)> may_open;
+  /// The subprotocol of a WebSocket; nullopt when it may not be opened. `offered` is what the page names as its
+  /// subprotocols.
+  std::function<std::optional<std::string>(const std::string& origin, const std::string& host,
+                                           const std::string& offered)>
+      choose_protocol;
   /// A WebSocket is open. @return its page's id; nullopt when there are too many
-  std::function<std::optional<PageId>(WebConnection& connection)> opened;
+  std::function<std::optional<PageId>(WebConnection& connection, const std::string& target)> opened;
   std::function<void(WebConnection& connection)> closed;
 };
 
@@ -44,7 +47,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   /// A peer that is silent for half of this is sent a ping, and one that is silent for all of it is disconnected.
   static constexpr std::chrono::seconds kIdle{10};
   static constexpr std::size_t kMaxHeaderBytes = 8192;
-  static constexpr std::size_t kMaxMessageBytes = 4096;
+  static constexpr std::size_t kReadBytes = 4096;  ///< at once
 
   /// @param shared must outlive this @param number, peer as accepted
   WebConnection(const SharedByConnections& shared, WebStream::Socket socket, std::uint64_t number, std::string peer);
@@ -87,7 +90,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   boost::beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
   std::optional<WebAnswer> answer_;
-  std::string message_;  ///< the part received so far
+  std::string message_;   ///< the part received so far
+  std::string protocol_;  ///< the subprotocol
   std::string close_reason_;
   PageId page_ = 0;
   bool is_send_due_ = false, is_writing_ = false, is_disconnecting_ = false, is_closing_ = false, is_over_ = false;

@@ -1,4 +1,4 @@
-#include "console/web_server.h"
+#include "web/server.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,15 +11,16 @@
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/beast/http/rfc7230.hpp>
 #include <openssl/ssl.h>
 
 #include "base/log_limiter.h"
-#include "console/origin.h"
-#include "console/web_connection.h"
 #include "net/connection_acceptor.h"
 #include "net/network_turns.h"
 #include "net/processor_budget.h"
 #include "net/wire_error.h"
+#include "web/connection.h"
+#include "web/origin.h"
 
 namespace robosim {
 namespace {
@@ -103,8 +104,9 @@ struct WebServer::Impl {
 
   /// @name Called by the connections
   ///@{
-  bool mayOpen(const std::string& origin, const std::string& host, const std::string& offered);
-  std::optional<PageId> opened(WebConnection& connection);
+  std::optional<std::string> chooseProtocol(const std::string& origin, const std::string& host,
+                                            const std::string& offered);
+  std::optional<PageId> opened(WebConnection& connection, const std::string& target);
   void closed(WebConnection& connection);
   ///@}
 
@@ -116,9 +118,9 @@ struct WebServer::Impl {
       .options = options,
       .events = events,
       .tls = tls.get(),
-      .may_open = [this](const std::string& origin, const std::string& host,
-                         const std::string& offered) { return mayOpen(origin, host, offered); },
-      .opened = [this](WebConnection& connection) { return opened(connection); },
+      .choose_protocol = [this](const std::string& origin, const std::string& host,
+                                const std::string& offered) { return chooseProtocol(origin, host, offered); },
+      .opened = [this](WebConnection& connection, const std::string& target) { return opened(connection, target); },
       .closed = [this](WebConnection& connection) { closed(connection); }};
   asio::io_context context{1};
   ConnectionAcceptor acceptor;
@@ -204,16 +206,21 @@ bool WebServer::Impl::take(const AcceptedConnection& accepted) {
   return true;
 }
 
-bool WebServer::Impl::mayOpen(const std::string& origin, const std::string& host, const std::string& offered) {
-  const bool may = isSameOrigin(origin, host, options.listen);
-  if (!may) {
+std::optional<std::string> WebServer::Impl::chooseProtocol(const std::string& origin, const std::string& host,
+                                                           const std::string& offered) {
+  if (!(options.may_open ? options.may_open(origin, host) : isSameOrigin(origin, host, options.listen))) {
     log.write("refused pages", "refused a page from " + inQuotes(origin) + " for " + inQuotes(host));
+    return std::nullopt;
   }
-  // The header may be a list; the console's page names one.
-  return may && offered == options.protocol;
+  // The header is a list: "a, b".
+  boost::beast::http::token_list list(offered);
+  const auto found = std::find_if(options.protocols.begin(), options.protocols.end(),
+                                  [&](const std::string& protocol) { return list.exists(protocol); });
+  if (found == options.protocols.end()) return std::nullopt;
+  return *found;
 }
 
-std::optional<PageId> WebServer::Impl::opened(WebConnection& connection) {
+std::optional<PageId> WebServer::Impl::opened(WebConnection& connection, const std::string& target) {
   if (pages.size() >= kMaxPages) {
     const auto leaving =
         std::find_if(pages.begin(), pages.end(), [](const auto& page) { return page.second->isDisconnecting(); });
@@ -227,7 +234,7 @@ std::optional<PageId> WebServer::Impl::opened(WebConnection& connection) {
   const PageId page = ++last_page;
   acceptor.release(connection.number());
   pages[page] = connections.at(connection.number());
-  events.opened(page, connection.peer());
+  events.opened(page, {connection.peer(), target});
   return page;
 }
 

@@ -1,4 +1,4 @@
-#include "console/web_answer.h"
+#include "web/answer.h"
 
 #include <algorithm>
 #include <array>
