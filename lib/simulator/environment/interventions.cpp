@@ -147,11 +147,14 @@ struct Environment::Impl::ApplyChange {
     const bool is_on_surface = object.movable || object.walker ? surface.covers(boundsOf(object.body.solid().outline))
                                                                : surface.contains({pose.x, pose.y});
     if (!is_on_surface) return notOnSurface(object.name);
-    return overlapFault(object.name, object.body.solid(), own);
+    // Doors may be in walls.
+    const auto among = object.door ? PlacedBodies::Among::moving : PlacedBodies::Among::all;
+    return overlapFault(object.name, object.body.solid(), own, among);
   }
 
-  std::string overlapFault(const std::string& name, const Solid& solid, BodyId own) const {
-    const BodyId other = of.bodies.overlapped(solid, own);
+  std::string overlapFault(const std::string& name, const Solid& solid, BodyId own,
+                           PlacedBodies::Among among = PlacedBodies::Among::all) const {
+    const BodyId other = of.bodies.overlapped(solid, own, among);
     if (other == kNoBody) return {};
     return inQuotes(name) + " would overlap " + described(other) + "; choose another place";
   }

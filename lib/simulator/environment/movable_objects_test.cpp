@@ -185,6 +185,17 @@ TEST(Conveyors, CarryBoxesButNoRobots) {
   EXPECT_NEAR(placeOf(*environment, 1).x, 1 + 2 * 0.4 - 0.4 * 0.4 / (2 * 0.5 * 9.81), 5e-3);
 }
 
+TEST(Doors, AreAddedInWallsButNotInRobots) {
+  const auto environment = boxAheadOfRobot();
+  WorldObject door = environment->world().objects[0];
+  door.name = "door";
+  door.door = Door{.world_from_closed = door.body.world_from_body, .slide_m = 1};
+  EXPECT_EQ(environment->apply({"test", AddObject{door}}), "");
+  door.name = "another";
+  door.body.world_from_body = door.door->world_from_closed = {0, 0.2, 0};
+  EXPECT_NE(environment->apply({"test", AddObject{door}}).find("overlap 'robot'"), std::string::npos);
+}
+
 /// Robots that drive about among boxes, balls and people, in rows.
 std::unique_ptr<Environment> crowd(std::uint64_t seed, int threads) {
   Rng rng(seed);

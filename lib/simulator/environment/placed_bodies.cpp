@@ -119,7 +119,7 @@ Solid PlacedBodies::discOf(std::size_t robot, const mrpt::math::TPoint2D& center
   return {Circle{center, model_.fleet.robots[robot].info.radius_m}, robot_bodies_[robot].heights};
 }
 
-BodyId PlacedBodies::overlapped(const Solid& solid, BodyId except) const {
+BodyId PlacedBodies::overlapped(const Solid& solid, BodyId except, Among among) const {
   const auto as_obstacle = [&](BodyId body) {
     Solid obstacle = scene_.solid(body);
     const auto* box = std::get_if<OrientedBox>(&obstacle.outline);
@@ -131,8 +131,10 @@ BodyId PlacedBodies::overlapped(const Solid& solid, BodyId except) const {
   area = {area.x_min - beyond_body_m_, area.x_max + beyond_body_m_, area.y_min - beyond_body_m_,
           area.y_max + beyond_body_m_};
   scene_.findBodies(area, near);
-  const auto found = std::find_if(near.begin(), near.end(),
-                                  [&](BodyId body) { return body != except && overlap(solid, as_obstacle(body)); });
+  const std::size_t first = among == Among::moving ? scene_.stationaryCount() : 0;
+  const auto found = std::find_if(near.begin(), near.end(), [&](BodyId body) {
+    return static_cast<std::size_t>(body) >= first && body != except && overlap(solid, as_obstacle(body));
+  });
   return found == near.end() ? kNoBody : *found;
 }
 

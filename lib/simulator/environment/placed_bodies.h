@@ -39,7 +39,8 @@ class PlacedBodies {
   bool isRobot(BodyId body) const;
   /// The first body but `except` that a solid overlaps; kNoBody for none. Robots count as the discs for which their
   /// moves are authorised.
-  BodyId overlapped(const Solid& solid, BodyId except) const;
+  enum class Among { all, moving };
+  BodyId overlapped(const Solid& solid, BodyId except, Among among = Among::all) const;
   /// What a robot occupies at a place when it is moved there: its disc, at its height.
   Solid discOf(std::size_t robot, const mrpt::math::TPoint2D& center) const;
   /// What sensors perceive. The result refers to this object and to all parameters.
