@@ -1,7 +1,9 @@
 #include "run/observer.h"
 
+#include "run/collection.h"
 #include "run/coverage.h"
 #include "run/effort.h"
+#include "run/soccer_referee.h"
 
 namespace robosim {
 namespace {
@@ -10,6 +12,8 @@ ObserverRegistry ownObservers() {
   ObserverRegistry registry;
   registry.add(coverageType());
   registry.add(effortType());
+  registry.add(collectionType());
+  registry.add(soccerRefereeType());
   return registry;
 }
 

@@ -7,6 +7,10 @@
 #include "maze/heat_gradient.h"
 #include "maze/market.h"
 #include "maze/oracle.h"
+#include "maze/pushing/box_pusher.h"
+#include "maze/pushing/doorway.h"
+#include "maze/pushing/forager.h"
+#include "maze/pushing/soccer_player.h"
 #include "maze/random_walk.h"
 #include "maze/stigmergy.h"
 #include "maze/wall_follower.h"
@@ -135,6 +139,67 @@ void addTeams(ControllerRegistry& registry) {
                 }});
 }
 
+Parameter placeX(const char* name, const char* help) { return {name, 0, -1e6, 1e6, "m", help}; }
+
+void addPushers(ControllerRegistry& registry) {
+  registry.add({"forage",
+                "Pushes low round objects into a nest.",
+                {SensorKind::odometry, SensorKind::laser},
+                {placeX("nest_x_m", "x of the nest's centre in the world"),
+                 placeX("nest_y_m", "y of the nest's centre in the world"),
+                 {"nest_radius_m", ForagerOptions{}.nest_radius_m, 0.2, 1000, "m", "radius of the nest"},
+                 {"puck_radius_m", ForagerOptions{}.puck_radius_m, 0.02, 1, "m", "radius of the objects"},
+                 {"speed_mps", ForagerOptions{}.speed_mps, 0.01, 10, "m/s", "speed"}},
+                [](const Setup& setup, const Values& values) -> Made {
+                  return std::make_unique<Forager>(setup, ForagerOptions{{values["nest_x_m"], values["nest_y_m"]},
+                                                                         values["nest_radius_m"],
+                                                                         values["puck_radius_m"],
+                                                                         values["speed_mps"]});
+                }});
+  registry.add({"soccer",
+                "Plays soccer in a team: the nearest player pushes the ball to the goal, the others cover.",
+                {SensorKind::odometry, SensorKind::laser},
+                {{"goal_x_m", SoccerOptions{}.goal_x_m, -100, 100, "m",
+                  "x of the goal that it attacks in the world; its own goal is at the negative x"},
+                 {"half_width_m", SoccerOptions{}.half_width_m, 1, 100, "m", "half the width of the pitch"},
+                 {"goal_half_width_m", SoccerOptions{}.goal_half_width_m, 0.3, 100, "m", "half the width of a goal"},
+                 {"corner_m", SoccerOptions{}.corner_m, 0, 100, "m", "length cut off the pitch's sides at its corners"},
+                 {"ball_radius_m", SoccerOptions{}.ball_radius_m, 0.02, 1, "m", "radius of the ball"},
+                 {"speed_mps", SoccerOptions{}.speed_mps, 0.1, 10, "m/s", "speed"},
+                 {"keeper", 0, 0, 1, "", "1 for the player that keeps the goal"}},
+                [](const Setup& setup, const Values& values) -> Made {
+                  return std::make_unique<SoccerPlayer>(
+                      setup, SoccerOptions{values["goal_x_m"], values["half_width_m"], values["goal_half_width_m"],
+                                           values["corner_m"], values["ball_radius_m"], values["speed_mps"],
+                                           values["keeper"] >= 0.5});
+                }});
+  registry.add({"push_together",
+                "Drives to the box ahead, waits there for its team, and pushes it with them.",
+                {SensorKind::odometry},
+                {{"distance_m", BoxPusherOptions{}.distance_m, 0.01, 1000, "m", "distance by which the box is pushed"},
+                 {"speed_mps", BoxPusherOptions{}.speed_mps, 0.01, 10, "m/s", "speed"},
+                 {"team", 2, 1, 1000, "robots", "number of robots that push, this one included"}},
+                [](const Setup&, const Values& values) -> Made {
+                  return std::make_unique<BoxPusher>(
+                      BoxPusherOptions{values["distance_m"], values["speed_mps"], static_cast<int>(values["team"])});
+                }});
+  const auto add_doorway = [&](const char* name, const char* help, const char* x, const char* y, bool is_holder) {
+    registry.add(
+        {name,
+         help,
+         {SensorKind::odometry},
+         {placeX("x_m", x), placeX("y_m", y), {"speed_mps", DoorwayOptions{}.speed_mps, 0.01, 10, "m/s", "speed"}},
+         [is_holder](const Setup& setup, const Values& values) -> Made {
+           return std::make_unique<Doorway>(
+               setup, DoorwayOptions{{values["x_m"], values["y_m"]}, values["speed_mps"], is_holder});
+         }});
+  };
+  add_doorway("hold_door", "Stands in a doorway, so that the door stays open, until another robot has passed.",
+              "x of its place in the doorway, in the world", "y of its place in the doorway, in the world", true);
+  add_doorway("pass_door", "Waits until another robot holds a door open, and drives through.",
+              "x of its place behind the door, in the world", "y of its place behind the door, in the world", false);
+}
+
 ControllerRegistry own() {
   ControllerRegistry registry;
   registry.add({"gold_finder",
@@ -161,6 +226,7 @@ ControllerRegistry own() {
                 }});
   addWalks(registry);
   addTeams(registry);
+  addPushers(registry);
   return registry;
 }
 
