@@ -85,8 +85,7 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
     if (speed > 0 && !waitUntil(start + Seconds(now.seconds() / speed), interrupt)) {
       return EndedBy::interrupt;
     }
-    run.step();
-    observe();
+    run.step(observe);
     if (progress.due()) {
       progress.show(progressText(run, arguments.time_s, secondsSince(start)));
     }
@@ -242,8 +241,7 @@ void runOnRanks(const LocalRunArguments& arguments, RankGroup& group) {
         break;
       }
       if (speed > 0) waitUntil(start + Seconds(now.seconds() / speed), interrupt);
-      run.step(interrupt.isRequested(), failure);
-      observe();
+      run.step(interrupt.isRequested(), failure, observe);
     }
     run.finish(failure);
   } catch (const RecordingError&) {

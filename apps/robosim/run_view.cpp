@@ -65,10 +65,9 @@ class LocalRunView final : public ViewSource {
 
   void take() {
     if (isOver()) return;
-    run_.step();
+    run_.step(observe_);
     paths_.add(run_.environment().time().step, run_.environment().time().seconds(),
                run_.environment().state().world_from_robot);
-    observe_();
   }
   /// Takes the steps that are due after this wall time. Steps that the computer is too slow for are dropped, so that
   /// the window stays responsive.

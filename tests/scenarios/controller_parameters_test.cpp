@@ -94,7 +94,7 @@ TEST_F(ChosenControllers, AreListedWithDefaultBoundsUnitAndHelp) {
             std::string::npos)
       << text.out;
   const json all = json::parse(runProgram("controllers --json").out);
-  ASSERT_EQ(all.size(), 12u);
+  ASSERT_EQ(all.size(), 17u);
   EXPECT_EQ(all[2]["parameters"][0]["default"], 1.5);
   EXPECT_EQ(all[0]["needs"], json({"odometry", "heat"}));
   const Ended unknown = runProgram("controllers wall_folower");
@@ -102,7 +102,8 @@ TEST_F(ChosenControllers, AreListedWithDefaultBoundsUnitAndHelp) {
   EXPECT_EQ(unknown.err,
             "robosim controllers: there is no controller 'wall_folower'; known are: gold_finder, wander, "
             "wall_follower, still, "
-            "random_walk, levy_walk, wall_search, heat_gradient, stigmergy, oracle, coordinated_frontiers, market\n");
+            "random_walk, levy_walk, wall_search, heat_gradient, stigmergy, oracle, coordinated_frontiers, market, "
+            "forage, soccer, push_together, hold_door, pass_door\n");
 }
 
 TEST_F(ChosenControllers, SensorsAreListedWithTheirSettings) {

@@ -90,7 +90,8 @@ void DistributedRun::setWork(const std::vector<RobotRange>& work) {
   if (!near_) motion_of_ = {listOf(work[own_])};
 }
 
-void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failure) {
+void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failure,
+                          const std::function<void()>& record) {
   Environment& environment = run_->environment();
   finished(rest);
   if (near_ && environment.time().step == near_until_step_) {
@@ -114,7 +115,7 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
   if (sends_readings_) exchangeReadings(shares_.work, needed_);
   exchangeWinCandidates();
   environment.phases().conclude();
-  const std::exception_ptr observer_failure = failureOf([&] { run_->observe(); });
+  const std::exception_ptr observer_failure = failureOf([&] { run_->observe(record); });
   finished(rest);
   if (has_observers_) {
     group_.allGather(errorBytes(observer_failure), all_);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,10 +49,11 @@ class DistributedRun {
   /// Runs the controllers and takes one time step; a collective operation.
   /// @param is_end_requested whether this rank wants the run to end after the step, as after an interrupt
   /// @param failure of this rank since the last step; null for none
+  /// @param record of LocalRun::step(); does not throw
   /// @throws the error of the first rank with one, on all ranks: a failure, an exception of a controller, a sensor or
   /// an observer. That of a sensor is thrown in the same step if ranks need readings of others, as rank 0 does to
   /// record them; otherwise by the next call of this function or of finish().
-  void step(bool is_end_requested, const std::exception_ptr& failure);
+  void step(bool is_end_requested, const std::exception_ptr& failure, const std::function<void()>& record = {});
   /// Whether a rank has requested the end.
   bool isEndRequested() const { return is_end_requested_; }
   /// Whether the run has reached an end of its own, also by an observer on rank 0.

@@ -173,7 +173,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     local_robots_.back()->breakdown_s = drawBreakdownTime(i, options);
   }
   if (readPictures(options.observers)) takePictures(std::vector<std::uint8_t>(environment_.robotCount(), 1));
-  observers_.observe(environment_);
+  observe();
 }
 
 LocalRun::LocalRun(ForkOf original)
@@ -264,10 +264,10 @@ std::vector<std::uint8_t> LocalRun::pictureReaders() const {
   return readers;
 }
 
-void LocalRun::step() {
+void LocalRun::step(const std::function<void()>& record) {
   decide();
   environment_.step();
-  observe();
+  observe(record);
 }
 
 void LocalRun::decide() {
@@ -286,7 +286,11 @@ void LocalRun::decide() {
   });
 }
 
-void LocalRun::observe() { observers_.observe(environment_); }
+void LocalRun::observe(const std::function<void()>& record) {
+  observers_.observe(environment_);
+  if (record) record();
+  observers_.supervise(environment_);
+}
 
 GoldOutcome LocalRun::gold() const {
   const State& state = environment_.state();

@@ -111,13 +111,15 @@ class LocalRun {
   std::unique_ptr<LocalRun> fork(Elsewhere elsewhere = Elsewhere::refuse) const;
 
   /// Runs every controller, then takes one time step.
+  /// @param record reads the step, before observers change the run for the next one
   /// @throws ControllerError for an exception of a controller
   /// @throws ObserverError for an exception of an observer, after the step
-  void step();
+  void step(const std::function<void()>& record = {});
   /// @name Phases of step(), for callers that step the environment themselves
   ///@{
   void decide();
-  void observe();  ///< calls the observers, after the step
+  /// Calls the observers, after the step. @param record as above
+  void observe(const std::function<void()>& record = {});
   ///@}
 
   /// @name With RunOptions::pictures_on_request

@@ -81,7 +81,7 @@ ObserverSetup RunObservers::makeSetup(const std::string& name) {
   return {seed_, [this, name](const std::string& line) { logInfo(name, "at " + fixed(now_s_, 3) + " s: " + line); }};
 }
 
-void RunObservers::observe(Environment& environment) {
+void RunObservers::observe(const Environment& environment) {
   now_s_ = environment.time().seconds();
   for (const auto& one : observers_) {
     std::string reason = guarded(one.choice, [&] {
@@ -90,7 +90,9 @@ void RunObservers::observe(Environment& environment) {
     });
     if (!end_ && !reason.empty()) end_ = {one.name, std::move(reason)};
   }
-  // After all have observed, so that metrics depend neither on the observers' order nor on who makes the changes.
+}
+
+void RunObservers::supervise(Environment& environment) {
   if (!is_supervising_) return;
   for (const auto& one : observers_) {
     if (!one.supervises) continue;

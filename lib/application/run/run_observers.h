@@ -36,8 +36,11 @@ class RunObservers {
   RunObservers(const RunObservers&) = delete;
   RunObservers& operator=(const RunObservers&) = delete;
 
-  /// Lets all observe the present state, and change it, one after the other. @throws ObserverError
-  void observe(Environment& environment);
+  /// Lets all observe the present state, one after the other. @throws ObserverError
+  void observe(const Environment& environment);
+  /// Lets those that supervise change the run, after all have observed, so that metrics depend neither on the
+  /// observers' order nor on who makes the changes. @throws ObserverError
+  void supervise(Environment& environment);
   /// The first observer that ends the run; nullopt to continue.
   const std::optional<ObserverEnd>& end() const { return end_; }
   /// The metrics of all, "OBSERVER.METRIC". @throws ObserverError

@@ -205,8 +205,7 @@ void WorldRun::decide() {
 
 void WorldRun::stepped(std::size_t late) {
   if (run_->late) *run_->late += late;
-  run_->run.observe();
-  run_->outputs.observe(run_->run.environment());
+  run_->run.observe([&] { run_->outputs.observe(run_->run.environment()); });
   run_->reportRecording();
   if (arcos_) arcos_->stepped();
 }

@@ -14,7 +14,7 @@ TEST(Controllers, AreListedWithOneSentenceEach) {
   EXPECT_EQ(controllers().names(),
             (std::vector<std::string>{"gold_finder", "wander", "wall_follower", "still", "random_walk", "levy_walk",
                                       "wall_search", "heat_gradient", "stigmergy", "oracle", "coordinated_frontiers",
-                                      "market"}));
+                                      "market", "forage", "soccer", "push_together", "hold_door", "pass_door"}));
   for (const auto& type : controllers().types()) {
     EXPECT_EQ(type.help.back(), '.') << type.name;
   }
@@ -30,7 +30,10 @@ TEST(Controllers, AreCreatedByName) {
       hardware.advance();
     }
     const bool moved = hardware.odometry().odom_from_robot != mrpt::math::TPose2D();
-    EXPECT_EQ(moved, name != "still" && name != "oracle") << name << "; an oracle without a map stands still";
+    // At the start are the place of hold_door, by default; pass_door waits for it; an oracle without a map stands
+    // still.
+    const std::set<std::string> standing{"still", "oracle", "hold_door", "pass_door"};
+    EXPECT_EQ(moved, !standing.contains(name)) << name;
   }
 }
 
@@ -42,7 +45,8 @@ TEST(Controllers, OfUnknownNamesAreRefusedWithAListOfAll) {
     EXPECT_STREQ(
         error.what(),
         "there is no controller 'gold_digger'; take one of gold_finder, wander, wall_follower, still, "
-        "random_walk, levy_walk, wall_search, heat_gradient, stigmergy, oracle, coordinated_frontiers, market");
+        "random_walk, levy_walk, wall_search, heat_gradient, stigmergy, oracle, coordinated_frontiers, market, "
+        "forage, soccer, push_together, hold_door, pass_door");
   }
 }
 
