@@ -103,7 +103,7 @@ TEST(HeldDoor, LetsTheGuestPass) {
   EXPECT_EQ(runOf("held_door --time 60")["ended_by"], "all_halted") << "the guest halts behind the door";
 }
 
-TEST(HeldDoor, IsClosedBeforeTheGuestArrivesIfNobodyStandsInIt) {
+TEST(HeldDoor, IsClosedBeforeTheGuestArrivesIfNoRobotStandsInIt) {
   const auto world = changedWorld("held_door", R"(x_m="0" y_m="0\.25")", R"(x_m="-0.6" y_m="0.25")");
   const Json run = runOf(quoted(world) + " --time 60");
   EXPECT_EQ(run["ended_by"], "time_limit");
