@@ -18,6 +18,7 @@
 #include "python_released.h"
 #include "python_world.h"
 #include "whole_number.h"
+#include "world/intervention.h"
 
 namespace robosim {
 namespace {
@@ -257,6 +258,12 @@ void bindBatch(py::module_& module) {
       .def("set_seed",
            [](PythonBatch& of, std::size_t environment, Seed seed) {
              of.exclusively([&](EnvironmentBatch& batch) { batch.setSeed(environment, seed); });
+           })
+      .def("set_interventions",
+           [](PythonBatch& of, std::size_t environment, const std::vector<std::string>& elements) {
+             std::vector<Change> changes;
+             for (const std::string& element : elements) changes.push_back(parseChange(element, "intervention"));
+             of.exclusively([&](EnvironmentBatch& batch) { batch.setChanges(environment, std::move(changes)); });
            })
       .def("reset", reset, py::arg("observations"), py::arg("mask") = py::none())
       .def("step", step);

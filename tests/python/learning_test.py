@@ -31,6 +31,43 @@ class VectorEnvTest(unittest.TestCase):
         self.assertEqual(infos["step"].tolist(), [0, count + 1])
         self.assertEqual(infos["gold_found"].tolist(), [False, False])
 
+    def test_episodes_begin_with_the_interventions_of_their_environment(self):
+        wall = ('<add><cube><name>wall</name><x>1</x><y>0</y><z>0.5</z><length>0.2</length><width>2</width>'
+                '<height>1</height></cube></add>')
+
+        def run(threads):
+            env = robosim.VectorEnv(scene.world(1), 3, observations=("sonar", "pose"), random_starts=False, max_steps=2,
+                                    threads=threads)
+            seen = [env.reset(seed=1, options={"interventions": {
+                1: [wall], 2: ['<place name="R1" x="0" y="1" direction="0.5"/>']}})[0].copy()]
+            seen += [env.step(np.ones((3, 2)))[0].copy() for _ in range(4)]
+            env.set_interventions(1, [])
+            seen.append(env.reset(seed=1)[0].copy())
+            return env.observation_parts, np.array(seen)
+
+        parts, seen = run(1)
+        sonar, pose = parts["sonar"], parts["pose"]
+        # The front face of the wall is 0.9 m from the robot's centre.
+        self.assertLess(seen[0, 1, sonar].min(), 0.9)
+        self.assertGreater(seen[0, 0, sonar].min(), seen[0, 1, sonar].min())
+        np.testing.assert_allclose(seen[0, 2, pose], [0, 1, 0.5])
+        np.testing.assert_array_equal(seen[3, 1:, pose], seen[0, 1:, pose], "the next episode begins alike")
+        np.testing.assert_array_equal(seen[5, 1], seen[5, 0], "the wall has been left out again")
+        np.testing.assert_array_equal(run(3)[1], seen, "for any number of threads")
+
+    def test_refuses_interventions_that_are_impossible(self):
+        env = at_the_start()
+        with self.assertRaisesRegex(robosim.ConfigError, "environment 1: .* 'box' is not the name of a robot or an object"):
+            env.reset(options={"interventions": {1: '<remove name="box"/>'}})
+        with self.assertRaisesRegex(robosim.ConfigError, "cannot begin with its end"):
+            env.set_interventions(0, ['<end outcome="over"/>'])
+        with self.assertRaisesRegex(robosim.ConfigError, "is no change of a run"):
+            env.set_interventions(0, ['<move/>'])
+        with self.assertRaisesRegex(ValueError, "the environment is 2"):
+            env.set_interventions(2, [])
+        env.set_interventions(1, [])
+        env.reset()
+
     def test_infos_name_the_limit_of_steps_as_the_end(self):
         env = at_the_start(max_steps=1)
         env.reset()

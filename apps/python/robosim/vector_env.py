@@ -89,16 +89,20 @@ class VectorEnv(VectorEnvBase):
 
         seed: environment i gets seed + i (modulo 2^64); or a list of a seed or None for each. Without one, the next episodes follow.
         options: {"reset_mask": bool array of shape (num_envs,)} resets the selected environments only.
+            {"interventions": {environment: [element, …]}} are set by set_interventions() before the episodes begin.
         """
         self._require_open()
         options = dict(options or {})
         mask = options.pop("reset_mask", None)
+        interventions = dict(options.pop("interventions", None) or {})
         if options:
-            raise ValueError(f"unknown options {sorted(options)}; the only option is 'reset_mask'")
+            raise ValueError(f"unknown options {sorted(options)}; options are 'reset_mask' and 'interventions'")
         selected = np.ones(self.num_envs, bool) if mask is None else mask
         if not isinstance(selected, np.ndarray) or selected.dtype != bool or selected.shape != (self.num_envs,):
             raise TypeError(f"reset_mask must be a bool array of shape ({self.num_envs},)")
         seeds = self._seeds_of(seed)
+        for environment, elements in interventions.items():
+            self.set_interventions(environment, elements)
         results = self._sets[1]
         if mask is not None:
             results.observations[:] = self._sets[0].observations
@@ -110,6 +114,20 @@ class VectorEnv(VectorEnvBase):
         self._is_ready = bool(self._has_episode.all())
         self._sets.reverse()
         return self._shaped(results.observations), self._infos(selected)
+
+    def set_interventions(self, environment, elements):
+        """The following episodes of an environment begin with these changes, until others are set; [] for none.
+
+        elements: XML elements of doc/interventions.md, in metres and radians, applied in their order: place, add,
+            remove, change, open, activity, communication. The first observation is of the changed world.
+
+        A change that is impossible when an episode begins (it overlaps a robot at a random start) raises ConfigError in
+        reset() or step(); the next call begins the next episode. Set others before the step that begins an episode, the
+        one after its end, to give each episode changes of its own.
+        """
+        self._require_open()
+        require_whole("the environment", environment, 0, self.num_envs - 1)
+        self._batch.set_interventions(int(environment), [elements] if isinstance(elements, str) else list(elements))
 
     def step(self, actions):
         """Takes a step in every environment; returns observations, rewards, terminations, truncations and infos."""

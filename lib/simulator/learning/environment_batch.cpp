@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "base/error_list.h"
 #include "base/parallel_executor.h"
@@ -23,6 +25,7 @@ struct Episode {
   std::uint64_t seed = 0;
   std::uint64_t number = 0;      ///< of episodes since the seed was set
   std::uint64_t world_seed = 0;  ///< of a generated world
+  std::vector<Change> changes;   ///< with which its episodes begin
   bool is_over = true;           ///< the next step starts the next episode
 };
 
@@ -102,9 +105,27 @@ struct EnvironmentBatch::Impl {
     if (episode.world->random_starts) start.world_from_robot = episode.world->random_starts->draw(seed);
     start.seed = seed;
     episode.others.reset();
+    if (!episode.changes.empty()) start = changed(episode, start);
     episode.environment->restart(start);
     if (make_others) episode.others = make_others(*episode.environment, agents.count());
     episode.is_over = false;
+  }
+
+  /// The start of an episode with its changes, which are no interventions in it.
+  State changed(const Episode& episode, const State& start) const {
+    Environment& environment = *episode.environment;
+    environment.restore(start);
+    for (const Change& change : episode.changes) {
+      if (const std::string fault = environment.apply({"learning", change}); !fault.empty()) {
+        throw ConfigError("environment " + std::to_string(&episode - episodes.data()) +
+                          ": an episode cannot begin with " + changeText(change) + ": " + fault);
+      }
+    }
+    State result = environment.state();
+    result.interventions.clear();
+    result.interventions_applied = 0;
+    result.digest = start.digest;
+    return result;
   }
 
   void observe(std::size_t i, std::span<float> observations) const {
@@ -194,6 +215,15 @@ void EnvironmentBatch::setSeed(std::size_t environment, std::uint64_t seed) {
   Episode& episode = impl_->episodes.at(environment);
   episode.seed = seed;
   episode.number = 0;
+}
+
+void EnvironmentBatch::setChanges(std::size_t environment, std::vector<Change> changes) {
+  for (const Change& change : changes) {
+    if (std::holds_alternative<EndRun>(change)) {
+      throw ConfigError(changeText(change) + ": an episode cannot begin with its end; leave it out");
+    }
+  }
+  impl_->episodes.at(environment).changes = std::move(changes);
 }
 
 void EnvironmentBatch::reset(std::span<float> observations, std::span<const std::uint8_t> which) {

@@ -9,6 +9,7 @@
 #include "learning/batch_options.h"
 #include "learning/observation_layout.h"
 #include "robots/fleet.h"
+#include "world/intervention.h"
 
 namespace robosim {
 
@@ -70,6 +71,11 @@ class EnvironmentBatch {
   /// Gives environment i the seed `seed` + i; its next episode is the first of that seed.
   void setSeed(std::uint64_t seed);
   void setSeed(std::size_t environment, std::uint64_t seed);
+  /// Environment i's following episodes begin with these changes, in their order, until others are set. The first
+  /// observation is of the changed environment. reset(), or the step that begins an episode, throws ConfigError for one
+  /// that is impossible then, as where a random start is in the way; the next call begins the next episode.
+  /// @throws ConfigError for EndRun
+  void setChanges(std::size_t environment, std::vector<Change> changes);
   /// Starts a new episode in every environment, or in those whose element of `which` is not 0, and writes their
   /// observations only.
   void reset(std::span<float> observations, std::span<const std::uint8_t> which = {});

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error_list.h"
 #include "environment/testing/small_world.h"
 
 namespace robosim {
@@ -53,6 +54,56 @@ TEST(EnvironmentBatch, ScalesActionsByTheRobotsLimits) {
   const std::vector<float> actions{0.5f, 0, 0, 0.5f};  // limits: 1 m/s, 2 rad/s; steps of 0.1 s
   batch.step(actions, arrays.results());
   EXPECT_EQ(arrays.observations, (std::vector<float>{0.05f, 0, 0, 0, 0, 0.1f}));
+}
+
+TEST(EnvironmentBatch, BeginsEpisodesWithTheChangesOfTheirEnvironment) {
+  BatchOptions options = poseOptions(2);
+  options.steps_max = 1;
+  options.has_digests = true;
+  EnvironmentBatch batch(worldsOf(worldWithGold()), options);
+  Arrays arrays(batch);
+  WorldObject crate;
+  crate.name = "crate";
+  crate.body = {Cube{0.5, 0.5}, {-1, -1, 0}, 0.5, 1};
+  batch.setChanges(1, {PlaceBody{"r0", 1, 1, 0.5}, AddObject{crate}});
+  batch.reset(arrays.observations);
+  const std::vector<float> changed{0, 0, 0, 1, 1, 0.5f};
+  EXPECT_EQ(arrays.observations, changed);
+  EXPECT_EQ(batch.environment(0).objects().size(), 1u);
+  EXPECT_EQ(batch.environment(1).objects().size(), 2u);
+  EXPECT_EQ(batch.environment(1).state().interventions_applied, 0u);
+  const std::vector<float> still(4, 0);
+  const std::string digest = batch.environment(1).digest();
+  batch.step(still, arrays.results());
+  EXPECT_EQ(arrays.truncated[1], 1);
+  batch.step(still, arrays.results());  // begins the next episodes
+  EXPECT_EQ(arrays.observations, changed);
+  EXPECT_EQ(batch.environment(1).objects().size(), 2u);
+  EXPECT_EQ(batch.environment(1).digest(), digest) << "the same start";
+  batch.setChanges(1, {});
+  batch.reset(arrays.observations);
+  EXPECT_EQ(arrays.observations, std::vector<float>(6, 0));
+  EXPECT_EQ(batch.environment(1).objects().size(), 1u);
+}
+
+TEST(EnvironmentBatch, RefusesAnImpossibleChangeAtTheBeginningOfAnEpisode) {
+  EnvironmentBatch batch(worldsOf(worldWithGold()), poseOptions(2));
+  Arrays arrays(batch);
+  batch.setChanges(1, {PlaceBody{"r0", 3, 0}});
+  try {
+    batch.reset(arrays.observations);
+    FAIL() << "not refused";
+  } catch (const ConfigError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("environment 1: an episode cannot begin with <place name=\"r0\" x=\"3\" y=\"0\"/>: 'r0' would "
+                        "not be on the surface"),
+              std::string::npos)
+        << text;
+  }
+  batch.setChanges(1, {});
+  batch.reset(arrays.observations);
+  EXPECT_EQ(arrays.observations, std::vector<float>(6, 0));
+  EXPECT_THROW(batch.setChanges(0, {EndRun{"over"}}), ConfigError);
 }
 
 TEST(EnvironmentBatch, ReturnsTheFinalObservationAndResetsInTheNextStep) {
