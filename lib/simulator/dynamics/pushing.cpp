@@ -58,7 +58,7 @@ class PushingStep {
       const bool was_stopped = stops_of_driven_[k] < 1;
       motion = {
           {}, motion.world_from_object, before.open_to, shareAt(k, 1), was_stopped ? before.walk : planOf(k).walk};
-      if (was_stopped) ++motion.walk.waited_steps;
+      if (was_stopped && group_.objects[k].body->walker) ++motion.walk.waited_steps;
     }
     for (std::size_t r = 0; r < stops_.size(); ++r) group_.robots[r].path->end_fraction = stops_[r];
   }

@@ -185,6 +185,31 @@ TEST(Conveyors, CarryBoxesButNoRobots) {
   EXPECT_NEAR(placeOf(*environment, 1).x, 1 + 2 * 0.4 - 0.4 * 0.4 / (2 * 0.5 * 9.81), 5e-3);
 }
 
+TEST(Doors, ThatARobotHoldsContinueFromASavedState) {
+  const auto held_door = [] {
+    return boxAheadOfRobot([](World& world) {
+      WorldObject door = world.objects[0];
+      door.name = "door";
+      door.body.world_from_body = {0, 0.5, M_PI_2};
+      door.door = Door{.world_from_closed = {0, -0.2, M_PI_2}, .slide_m = 1.2, .share = 1};
+      door.body.world_from_body = door.door->poseAt(1, 1);
+      world.objects[1] = door;
+    });
+  };
+  const auto first = held_door();
+  for (int i = 0; i < 30; ++i) first->step();
+  const double share = first->objects()[1].door->share;
+  EXPECT_GT(share, 0.2) << "the robot is in its way";
+  EXPECT_LT(share, 1);
+  const State saved = first->state();
+  for (int i = 0; i < 5; ++i) first->step();
+  const auto second = held_door();
+  second->restore(saved);
+  for (int i = 0; i < 5; ++i) second->step();
+  EXPECT_EQ(second->state(), first->state());
+  EXPECT_EQ(second->digest(), first->digest());
+}
+
 TEST(Doors, AreAddedInWallsButNotInRobots) {
   const auto environment = boxAheadOfRobot();
   WorldObject door = environment->world().objects[0];
