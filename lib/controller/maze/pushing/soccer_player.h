@@ -64,7 +64,7 @@ class SoccerPlayer : public Controller {
   int stalls_ = 0;                           ///< steps in a row
   mrpt::math::TPoint2D rest_{0, 0};          ///< place near which the ball has been since rest_step_, world frame
   std::uint64_t rest_step_ = 0;
-  std::uint64_t back_until_ = 0;             ///< step until which it drives back from what it has met
+  std::uint64_t back_until_ = 0;  ///< step until which it drives back from what it has met
 };
 
 }  // namespace robosim
