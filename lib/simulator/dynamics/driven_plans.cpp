@@ -45,7 +45,7 @@ class DrivenPlanner {
   DrivenPlan planDoor(std::size_t k) const {
     const ObjectMotion& motion = around_.objects[k];
     const Door& door = *around_.bodies[k].door;
-    const double to = isSomebodyNear(k) ? 1 : motion.open_to;
+    const double to = isApproached(k) ? 1 : motion.open_to;
     const double most = door.shareRate() * around_.period_s;
     DrivenPlan plan{.door_share = std::clamp(to, motion.door_share - most, motion.door_share + most)};
     const double share = std::abs(plan.door_share - motion.door_share);
@@ -56,7 +56,7 @@ class DrivenPlanner {
     return plan;
   }
 
-  bool isSomebodyNear(std::size_t door) const {
+  bool isApproached(std::size_t door) const {
     const MovableBody& body = around_.bodies[door];
     const double within_m = body.door->opens_within_m;
     if (within_m == 0) return false;
