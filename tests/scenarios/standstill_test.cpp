@@ -116,10 +116,13 @@ TEST_P(Standstill, NeverLasts) {
   }
 }
 
-/// All controllers except the idle one.
+/// All controllers except the idle one, and those of demonstrations that stand where a world lacks what they wait for:
+/// beacons, a partner at a crate, a doorway (demonstrations_test.cpp runs them in worlds that have it).
 std::vector<std::string> driving() {
   std::vector<std::string> names = controllers().names();
-  std::erase(names, "still");
+  for (const char* const waiting : {"still", "soccer", "push_together", "hold_door", "pass_door"}) {
+    std::erase(names, waiting);
+  }
   return names;
 }
 
