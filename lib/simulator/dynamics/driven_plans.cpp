@@ -21,18 +21,19 @@ TPoint2D centerOf(const ObjectMotion& motion) { return {motion.world_from_object
 class DrivenPlanner {
  public:
   explicit DrivenPlanner(const DrivenSurroundings& around) : around_(around), plans_(around.bodies.size()) {
+    for (const auto& body : around.bodies) widest_m_ = std::max(widest_m_, body.covering_radius_m);
+    for (const auto& robot : around.robots) widest_m_ = std::max(widest_m_, robot.radius_m);
     for (std::size_t k = 0; k < around.bodies.size(); ++k) {
       const MovableBody& body = around.bodies[k];
-      if (body.isDriven()) driven_.push_back(k);
-      if (body.walker) plans_[k] = planWalk(k);
-      if (body.door) plans_[k] = planDoor(k);
-      widest_m_ = std::max(widest_m_, body.covering_radius_m);
+      if (!body.isDriven()) continue;
+      driven_.push_back(k);
+      plans_[k] = body.door ? planDoor(k) : planWalk(k);
     }
-    for (const auto& robot : around.robots) widest_m_ = std::max(widest_m_, robot.radius_m);
   }
 
   std::vector<DrivenPlan> run() {
     const std::vector<DrivenPlan> wanted = plans_;
+    for (const auto k : driven_) way_max_m_ = std::max(way_max_m_, wanted[k].way_m);
     for (const auto k : driven_) {
       if (wanted[k].way_m == 0) continue;
       const bool is_free = around_.bodies[k].door ? isDoorFree(k, wanted) : isWalkFree(k, wanted);
@@ -62,9 +63,7 @@ class DrivenPlanner {
     if (within_m == 0) return false;
     const auto closed = body.doorAt(0);
     const Outline outline = body.outlineAt(closed);
-    std::vector<std::uint32_t> near;
-    around_.scene.findMoving({closed.x, closed.y}, body.covering_radius_m + within_m + widest_m_,
-                             around_.scene.movingCount(), near);
+    const auto near = movingNear({closed.x, closed.y}, body.covering_radius_m + within_m);
     return std::any_of(near.begin(), near.end(), [&](std::uint32_t moving) {
       const bool opens = isRobot(moving) || around_.bodies[moving - around_.paths.size()].walker;
       return opens && distance(outline, centerOfMoving(moving)) <= radiusOfMoving(moving) + within_m;
@@ -113,6 +112,23 @@ class DrivenPlanner {
     return plan;
   }
 
+  /// Robots and objects of which a part is within a distance of a point, and some others.
+  std::vector<std::uint32_t> movingNear(const TPoint2D& at, double within_m) const {
+    std::vector<std::uint32_t> near;
+    around_.scene.findMoving(at, within_m + widest_m_, around_.scene.movingCount(), near);
+    return near;
+  }
+  /// Doors and walkers that may come within a distance of a body's place in the step, and some others.
+  std::vector<std::size_t> drivenNear(const mrpt::math::TPose2D& at, double within_m) const {
+    std::vector<std::size_t> driven;
+    for (const auto moving : movingNear({at.x, at.y}, within_m + way_max_m_ + kClear_m)) {
+      if (isRobot(moving)) continue;
+      const std::size_t object = moving - around_.paths.size();
+      if (around_.bodies[object].isDriven()) driven.push_back(object);
+    }
+    return driven;
+  }
+
   bool isRobot(std::uint32_t moving) const { return moving < around_.paths.size(); }
   TPoint2D centerOfMoving(std::uint32_t moving) const {
     if (!isRobot(moving)) return centerOf(around_.objects[moving - around_.paths.size()]);
@@ -128,7 +144,8 @@ class DrivenPlanner {
   bool isDoorFree(std::size_t door, const std::vector<DrivenPlan>& wanted) const {
     const MovableBody& body = around_.bodies[door];
     const Outline outline = body.outlineAt(body.doorAt(wanted[door].door_share));
-    return std::none_of(driven_.begin(), driven_.end(), [&](std::size_t k) {
+    const auto near = drivenNear(body.doorAt(wanted[door].door_share), body.covering_radius_m);
+    return std::none_of(near.begin(), near.end(), [&](std::size_t k) {
       const MovableBody& other = around_.bodies[k];
       return other.walker && other.heights.overlaps(body.heights) &&
              distance(outline, centerOf(around_.objects[k])) < other.covering_radius_m + wanted[k].way_m + kClear_m;
@@ -158,7 +175,8 @@ class DrivenPlanner {
     const MovableBody& body = around_.bodies[k];
     const TPoint2D from = centerOf(around_.objects[k]);
     const TPoint2D to(wanted[k].world_from_object.x, wanted[k].world_from_object.y);
-    return std::none_of(driven_.begin(), driven_.end(), [&](std::size_t other) {
+    const auto near = drivenNear(wanted[k].world_from_object, body.covering_radius_m);
+    return std::none_of(near.begin(), near.end(), [&](std::size_t other) {
       if (other == k || !around_.bodies[other].heights.overlaps(body.heights)) return false;
       const Outline outline = around_.bodies[other].outlineAt(around_.objects[other].world_from_object);
       const double near_m = body.covering_radius_m + wanted[other].way_m + kClear_m;
@@ -179,9 +197,7 @@ class DrivenPlanner {
     if (way_m == 0) return true;
     const double half_m = (way_m + body.covering_radius_m + body.walker->stops_within_m) / 2;
     const OrientedBox ahead{from + way * (half_m / way_m), way * (1 / way_m), half_m, body.covering_radius_m};
-    std::vector<std::uint32_t> near;
-    around_.scene.findMoving(ahead.center, half_m + body.covering_radius_m + widest_m_, around_.scene.movingCount(),
-                             near);
+    const auto near = movingNear(ahead.center, half_m + body.covering_radius_m);
     return std::none_of(near.begin(), near.end(), [&](std::uint32_t moving) {
       if (isRobot(moving)) {
         return around_.robots[moving].heights.overlaps(body.heights) &&
@@ -197,7 +213,8 @@ class DrivenPlanner {
   const DrivenSurroundings& around_;
   std::vector<std::size_t> driven_;  ///< objects
   std::vector<DrivenPlan> plans_;
-  double widest_m_ = 0;  ///< of all moving bodies
+  double widest_m_ = 0;   ///< of all moving bodies
+  double way_max_m_ = 0;  ///< of all doors and walkers
 };
 
 }  // namespace
