@@ -149,6 +149,9 @@ void readMotion(XmlReader& solid, double unit_m, WorldObject& object) {
     if (first) (*motion)->error("is given beside <" + *first + ">; keep one");
     if (!first) first = &(*motion)->name();
   }
+  if (first && !movable && !is_stationary) {
+    solid.errorAt("stationary", "is given beside <" + *first + ">, which says how it moves; remove it");
+  }
   if (movable && is_stationary) {
     movable->error("is given to an object that is <stationary>1</stationary>; remove one of the two");
   }

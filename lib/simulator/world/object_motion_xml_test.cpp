@@ -102,14 +102,16 @@ TEST(ObjectMotionXml, RejectsContradictionsAboutTheMotionOfObjects) {
                                  movingPillar("q", "1", "<movable mass_kg='0'/>"),
                                  movingPillar("r", "1", "<door slide='1'/>"), movingBox("s", "<door/>"),
                                  movingBox("t", "<door slide='1' turn_deg='9'/>"), movingBox("u", "<door slide='0'/>"),
-                                 movingBox("v", "<movable/><door slide='1'/>")})),
+                                 movingBox("v", "<movable/><door slide='1'/>"),
+                                 movingBox("w", "<stationary>0</stationary><door slide='1'/>")})),
       (Lines{"a.xml:2: <movable>: is given to an object that is <stationary>1</stationary>; remove one of the two",
              "a.xml:3: <movable mass_kg=\"0\">: must be above 0; drop it for the default, 1256.6370614359173",
              "a.xml:4: <door>: is given to a <cylinder>; doors are a <cube>",
              "a.xml:5: <door>: needs either slide or turn_deg, how far it opens",
              "a.xml:6: <door>: needs either slide or turn_deg, how far it opens",
              "a.xml:7: <door slide=\"0\">: is 0, so the door never opens; give the length of its way",
-             "a.xml:8: <door>: is given beside <movable>; keep one"}));
+             "a.xml:8: <door>: is given beside <movable>; keep one",
+             "a.xml:9: <stationary>0</stationary>: is given beside <door>, which says how it moves; remove it"}));
 }
 
 }  // namespace
