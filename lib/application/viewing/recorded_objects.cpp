@@ -17,12 +17,8 @@ void RecordedObjects::add(const ChangedObjects& objects) {
   if (is_first || !objects.isSameList(last_)) {
     const auto moved = is_first ? std::nullopt : movedBetween(last_.orThose(of_world_), now);
     if (moved && places_.size() - lists_.back().places_from + moved->size() <= kPlacesPerObject * now.size()) {
-      const std::vector<WorldObject>& base = lists_.back().objects.orThose(of_world_);
       for (const std::uint32_t i : *moved) {
-        const auto &from = base[i].body.world_from_body, &to = now[i].body.world_from_body;
-        places_.push_back({i, static_cast<float>(to.x - from.x), static_cast<float>(to.y - from.y),
-                           static_cast<float>(to.phi - from.phi),
-                           now[i].door ? static_cast<float>(now[i].door->share) : 0.f});
+        places_.push_back({i, now[i].body.world_from_body, now[i].door ? now[i].door->share : 0});
       }
     } else {
       lists_.push_back({objects, places_.size()});
@@ -37,13 +33,11 @@ ChangedObjects RecordedObjects::at(std::size_t moment) {
   const List& list = lists_[wanted.list];
   if (wanted.places_to == list.places_from) return list.objects;
   if (wanted == shown_) return shown_objects_;
-  const std::vector<WorldObject>& base = list.objects.orThose(of_world_);
-  std::vector<WorldObject> objects = base;
+  std::vector<WorldObject> objects = list.objects.orThose(of_world_);
   for (std::size_t k = list.places_from; k < wanted.places_to; ++k) {
     const Place& place = places_[k];
-    const auto& from = base[place.object].body.world_from_body;
     WorldObject& object = objects[place.object];
-    object.body.world_from_body = {from.x + place.x_m, from.y + place.y_m, from.phi + place.phi_rad};
+    object.body.world_from_body = place.world_from_object;
     if (object.door) object.door->share = place.door_share;
   }
   shown_ = wanted;

@@ -2,12 +2,14 @@
 #include <cstdint>
 #include <vector>
 
+#include <mrpt/math/TPose2D.h>
+
 #include "world/changed_objects.h"
 
 namespace robosim {
 
 /// The objects of a recording at each of its moments. Of moments at which objects have only moved, the places of those
-/// are kept (20 bytes each), between complete lists.
+/// are kept (40 bytes each), between complete lists.
 class RecordedObjects {
  public:
   /// @param of_world the objects of the recorded world; must outlive this
@@ -15,19 +17,17 @@ class RecordedObjects {
 
   /// Adds those of the next moment.
   void add(const ChangedObjects& objects);
-  /// Those of a moment, counted from 0 in the order in which they were added. Places are rounded to 1e-7 of the way
-  /// since the last complete list.
+  /// Those of a moment, counted from 0 in the order in which they were added.
   ChangedObjects at(std::size_t moment);
   /// Numbers of complete lists and of places that are kept.
   std::size_t listCount() const { return lists_.size(); }
   std::size_t placeCount() const { return places_.size(); }
 
  private:
-  /// Where an object was, relative to its place in the last complete list.
   struct Place {
     std::uint32_t object;
-    float x_m, y_m, phi_rad;
-    float door_share;  ///< 0 for what is no door
+    mrpt::math::TPose2D world_from_object;
+    double door_share;  ///< 0 for what is no door
   };
   struct List {
     ChangedObjects objects;
