@@ -55,21 +55,21 @@ struct Reader::Impl {
 
 void Reader::Impl::add(Opcode opcode, std::span<const std::uint8_t> content) {
   if (opcode == Opcode::schema) {
-    Schema schema = readSchema(content);
+    Schema schema = read<Schema>(content);
     const std::uint16_t id = schema.id;
     const auto [known, is_new] = schemas.try_emplace(id, std::move(schema));
-    if (!is_new && known->second != readSchema(content)) {
+    if (!is_new && known->second != read<Schema>(content)) {
       throw RecordError("two different schemas have the id " + std::to_string(id));
     }
   } else if (opcode == Opcode::channel) {
-    Channel channel = readChannel(content);
+    Channel channel = read<Channel>(content);
     const std::uint16_t id = channel.id;
     if (channel.schema_id != 0 && schemas.count(channel.schema_id) == 0) {
       throw RecordError("channel \"" + channel.topic + "\" has the schema " + std::to_string(channel.schema_id) +
                         ", which is not in the file before it");
     }
     const auto [known, is_new] = channels.try_emplace(id, std::move(channel));
-    if (!is_new && known->second != readChannel(content)) {
+    if (!is_new && known->second != read<Channel>(content)) {
       throw RecordError("two different channels have the id " + std::to_string(id));
     }
   }
@@ -126,7 +126,7 @@ std::optional<Message> Reader::Impl::nextInChunk() {
 std::optional<Message> Reader::Impl::take(const Record& record) {
   switch (record.opcode) {
     case Opcode::header:
-      header = readHeader(record.content);
+      header = read<Header>(record.content);
       break;
     case Opcode::message:
       place = {record.start, 0};
@@ -171,7 +171,7 @@ bool Reader::Impl::readSummary() {
   if (tail.size() < kTail) return false;
   RecordReader reader(tail);
   if (static_cast<Opcode>(reader.u8()) != Opcode::footer || reader.u64() != kFooterBytes) return false;
-  const Footer footer = readFooter(reader.bytes(kFooterBytes));
+  const Footer footer = read<Footer>(reader.bytes(kFooterBytes));
   const auto magic = reader.rest();
   if (!std::equal(magic.begin(), magic.end(), kMagic.begin(),
                   [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); })) {
@@ -191,16 +191,16 @@ bool Reader::Impl::readSummary() {
     const auto content = records.bytes(records.u64());
     switch (opcode) {
       case Opcode::statistics:
-        read.statistics = readStatistics(content);
+        read.statistics = mcap::read<Statistics>(content);
         break;
       case Opcode::chunk_index:
-        read.chunks.push_back(readChunkIndex(content));
+        read.chunks.push_back(mcap::read<ChunkIndex>(content));
         break;
       case Opcode::attachment_index:
-        read.attachments.push_back(readAttachmentIndex(content));
+        read.attachments.push_back(mcap::read<AttachmentIndex>(content));
         break;
       case Opcode::metadata_index:
-        read.metadata.push_back(readMetadataIndex(content));
+        read.metadata.push_back(mcap::read<MetadataIndex>(content));
         break;
       default:
         add(opcode, content);
@@ -355,7 +355,7 @@ Attachment Reader::attachment(const AttachmentIndex& index) {
 }
 
 Metadata Reader::metadata(const MetadataIndex& index) {
-  return impl_->recordAt(index.offset, Opcode::metadata, "metadata record", readMetadata);
+  return impl_->recordAt(index.offset, Opcode::metadata, "metadata record", read<Metadata>);
 }
 
 const std::string& Reader::fault() const { return impl_->stream.fault(); }

@@ -37,24 +37,22 @@ std::span<const std::uint8_t> RecordReader::bytes(std::uint64_t size) {
 
 std::string RecordReader::text() { return asText(bytes(u32())); }
 
-std::map<std::string, std::string> RecordReader::texts() {
+void RecordReader::read(std::map<std::string, std::string>& texts) {
   RecordReader entries(bytes(u32()));
-  std::map<std::string, std::string> read;
+  texts.clear();
   while (!entries.rest().empty()) {
     std::string key = entries.text();
-    read[std::move(key)] = entries.text();
+    texts[std::move(key)] = entries.text();
   }
-  return read;
 }
 
-std::map<std::uint16_t, std::uint64_t> RecordReader::numbers() {
+void RecordReader::read(std::map<std::uint16_t, std::uint64_t>& numbers) {
   RecordReader entries(bytes(u32()));
-  std::map<std::uint16_t, std::uint64_t> read;
+  numbers.clear();
   while (!entries.rest().empty()) {
     const std::uint16_t key = entries.u16();
-    read[key] = entries.u64();
+    numbers[key] = entries.u64();
   }
-  return read;
 }
 
 void RecordWriter::number(std::uint64_t value, std::size_t size) {
@@ -73,7 +71,7 @@ void RecordWriter::text(std::string_view text) {
   bytes(text);
 }
 
-void RecordWriter::texts(const std::map<std::string, std::string>& texts) {
+void RecordWriter::write(const std::map<std::string, std::string>& texts) {
   std::size_t size = 0;
   for (const auto& [key, value] : texts) size += 8 + key.size() + value.size();
   u32(static_cast<std::uint32_t>(size));
@@ -83,7 +81,7 @@ void RecordWriter::texts(const std::map<std::string, std::string>& texts) {
   }
 }
 
-void RecordWriter::numbers(const std::map<std::uint16_t, std::uint64_t>& numbers) {
+void RecordWriter::write(const std::map<std::uint16_t, std::uint64_t>& numbers) {
   u32(static_cast<std::uint32_t>(10 * numbers.size()));
   for (const auto& [key, value] : numbers) {
     u16(key);
@@ -102,58 +100,13 @@ void RecordWriter::end(std::size_t begin) {
   for (std::size_t i = 0; i < 8; ++i) bytes_[begin - 8 + i] = static_cast<std::uint8_t>(length >> (8 * i));
 }
 
-Header readHeader(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  Header header;
-  header.profile = reader.text();
-  header.library = reader.text();
-  return header;
-}
-
-Footer readFooter(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  Footer footer;
-  footer.summary_start = reader.u64();
-  footer.summary_offset_start = reader.u64();
-  footer.summary_crc = reader.u32();
-  return footer;
-}
-
-Schema readSchema(std::span<const std::uint8_t> content) {
+template <>
+Schema read<Schema>(std::span<const std::uint8_t> content) {
   RecordReader reader(content);
   Schema schema;
-  schema.id = reader.u16();
-  schema.name = reader.text();
-  schema.encoding = reader.text();
-  schema.data = reader.text();
+  Schema::describe(schema, [&reader](auto& field) { reader.read(field); });
   if (schema.id == 0) throw RecordError("schema \"" + schema.name + "\" has the id 0, which means none");
   return schema;
-}
-
-Channel readChannel(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  Channel channel;
-  channel.id = reader.u16();
-  channel.schema_id = reader.u16();
-  channel.topic = reader.text();
-  channel.message_encoding = reader.text();
-  channel.metadata = reader.texts();
-  return channel;
-}
-
-ChunkIndex readChunkIndex(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  ChunkIndex index;
-  index.start_time = reader.u64();
-  index.end_time = reader.u64();
-  index.chunk_start = reader.u64();
-  index.chunk_length = reader.u64();
-  index.message_index_offsets = reader.numbers();
-  index.message_index_length = reader.u64();
-  index.compression = reader.text();
-  index.compressed_size = reader.u64();
-  index.uncompressed_size = reader.u64();
-  return index;
 }
 
 Attachment readAttachment(std::span<const std::uint8_t> content, bool has_data) {
@@ -173,95 +126,6 @@ Attachment readAttachment(std::span<const std::uint8_t> content, bool has_data) 
   return attachment;
 }
 
-AttachmentIndex readAttachmentIndex(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  AttachmentIndex index;
-  index.offset = reader.u64();
-  index.length = reader.u64();
-  index.log_time = reader.u64();
-  index.create_time = reader.u64();
-  index.data_size = reader.u64();
-  index.name = reader.text();
-  index.media_type = reader.text();
-  return index;
-}
-
-Metadata readMetadata(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  Metadata metadata;
-  metadata.name = reader.text();
-  metadata.values = reader.texts();
-  return metadata;
-}
-
-MetadataIndex readMetadataIndex(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  MetadataIndex index;
-  index.offset = reader.u64();
-  index.length = reader.u64();
-  index.name = reader.text();
-  return index;
-}
-
-Statistics readStatistics(std::span<const std::uint8_t> content) {
-  RecordReader reader(content);
-  Statistics statistics;
-  statistics.messages = reader.u64();
-  statistics.schemas = reader.u16();
-  statistics.channels = reader.u32();
-  statistics.attachments = reader.u32();
-  statistics.metadata = reader.u32();
-  statistics.chunks = reader.u32();
-  statistics.start_time = reader.u64();
-  statistics.end_time = reader.u64();
-  statistics.messages_by_channel = reader.numbers();
-  return statistics;
-}
-
-void append(std::vector<std::uint8_t>& bytes, const Header& header) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::header);
-  writer.text(header.profile);
-  writer.text(header.library);
-  writer.end(begin);
-}
-
-void append(std::vector<std::uint8_t>& bytes, const Schema& schema) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::schema);
-  writer.u16(schema.id);
-  writer.text(schema.name);
-  writer.text(schema.encoding);
-  writer.text(schema.data);
-  writer.end(begin);
-}
-
-void append(std::vector<std::uint8_t>& bytes, const Channel& channel) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::channel);
-  writer.u16(channel.id);
-  writer.u16(channel.schema_id);
-  writer.text(channel.topic);
-  writer.text(channel.message_encoding);
-  writer.texts(channel.metadata);
-  writer.end(begin);
-}
-
-void append(std::vector<std::uint8_t>& bytes, const ChunkIndex& index) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::chunk_index);
-  writer.u64(index.start_time);
-  writer.u64(index.end_time);
-  writer.u64(index.chunk_start);
-  writer.u64(index.chunk_length);
-  writer.numbers(index.message_index_offsets);
-  writer.u64(index.message_index_length);
-  writer.text(index.compression);
-  writer.u64(index.compressed_size);
-  writer.u64(index.uncompressed_size);
-  writer.end(begin);
-}
-
 void append(std::vector<std::uint8_t>& bytes, const Attachment& attachment) {
   RecordWriter writer(bytes);
   const std::size_t begin = writer.begin(Opcode::attachment);
@@ -272,51 +136,6 @@ void append(std::vector<std::uint8_t>& bytes, const Attachment& attachment) {
   writer.u64(attachment.data.size());
   writer.bytes(attachment.data);
   writer.u32(crcOf(std::span(bytes).subspan(begin)));
-  writer.end(begin);
-}
-
-void append(std::vector<std::uint8_t>& bytes, const AttachmentIndex& index) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::attachment_index);
-  writer.u64(index.offset);
-  writer.u64(index.length);
-  writer.u64(index.log_time);
-  writer.u64(index.create_time);
-  writer.u64(index.data_size);
-  writer.text(index.name);
-  writer.text(index.media_type);
-  writer.end(begin);
-}
-
-void append(std::vector<std::uint8_t>& bytes, const Metadata& metadata) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::metadata);
-  writer.text(metadata.name);
-  writer.texts(metadata.values);
-  writer.end(begin);
-}
-
-void append(std::vector<std::uint8_t>& bytes, const MetadataIndex& index) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::metadata_index);
-  writer.u64(index.offset);
-  writer.u64(index.length);
-  writer.text(index.name);
-  writer.end(begin);
-}
-
-void append(std::vector<std::uint8_t>& bytes, const Statistics& statistics) {
-  RecordWriter writer(bytes);
-  const std::size_t begin = writer.begin(Opcode::statistics);
-  writer.u64(statistics.messages);
-  writer.u16(statistics.schemas);
-  writer.u32(statistics.channels);
-  writer.u32(statistics.attachments);
-  writer.u32(statistics.metadata);
-  writer.u32(statistics.chunks);
-  writer.u64(statistics.start_time);
-  writer.u64(statistics.end_time);
-  writer.numbers(statistics.messages_by_channel);
   writer.end(begin);
 }
 

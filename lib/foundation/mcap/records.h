@@ -36,18 +36,38 @@ enum class Opcode : std::uint8_t {
 inline constexpr std::size_t kRecordPrefixBytes = 9;
 inline constexpr std::size_t kFooterBytes = 20;
 
+/// Records whose content is their fields in order have describe(), which visits these; reading and writing derive from
+/// it.
 struct Header {
   std::string profile, library;
+  static constexpr Opcode kOpcode = Opcode::header;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.profile);
+    visit(self.library);
+  }
 };
 struct Footer {
   std::uint64_t summary_start = 0;         ///< 0 for a file without a summary
   std::uint64_t summary_offset_start = 0;  ///< 0 for none
   std::uint32_t summary_crc = 0;           ///< 0 for none
+  static constexpr Opcode kOpcode = Opcode::footer;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.summary_start);
+    visit(self.summary_offset_start);
+    visit(self.summary_crc);
+  }
 };
 struct Schema {
   std::uint16_t id = 0;  ///< not 0
   std::string name, encoding;
   std::string data;
+  static constexpr Opcode kOpcode = Opcode::schema;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.id);
+    visit(self.name);
+    visit(self.encoding);
+    visit(self.data);
+  }
   bool operator==(const Schema&) const = default;
 };
 struct Channel {
@@ -55,6 +75,14 @@ struct Channel {
   std::uint16_t schema_id = 0;  ///< 0 for no schema
   std::string topic, message_encoding;
   std::map<std::string, std::string> metadata;
+  static constexpr Opcode kOpcode = Opcode::channel;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.id);
+    visit(self.schema_id);
+    visit(self.topic);
+    visit(self.message_encoding);
+    visit(self.metadata);
+  }
   bool operator==(const Channel&) const = default;
 };
 struct Chunk {
@@ -69,6 +97,18 @@ struct ChunkIndex {
   std::uint64_t message_index_length = 0;
   std::string compression;
   std::uint64_t compressed_size = 0, uncompressed_size = 0;
+  static constexpr Opcode kOpcode = Opcode::chunk_index;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.start_time);
+    visit(self.end_time);
+    visit(self.chunk_start);
+    visit(self.chunk_length);
+    visit(self.message_index_offsets);
+    visit(self.message_index_length);
+    visit(self.compression);
+    visit(self.compressed_size);
+    visit(self.uncompressed_size);
+  }
 };
 struct Attachment {
   std::uint64_t log_time = 0, create_time = 0;
@@ -79,15 +119,36 @@ struct Attachment {
 struct AttachmentIndex {
   std::uint64_t offset = 0, length = 0, log_time = 0, create_time = 0, data_size = 0;
   std::string name, media_type;
+  static constexpr Opcode kOpcode = Opcode::attachment_index;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.offset);
+    visit(self.length);
+    visit(self.log_time);
+    visit(self.create_time);
+    visit(self.data_size);
+    visit(self.name);
+    visit(self.media_type);
+  }
 };
 struct Metadata {
   std::string name;
   std::map<std::string, std::string> values;
+  static constexpr Opcode kOpcode = Opcode::metadata;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.name);
+    visit(self.values);
+  }
   bool operator==(const Metadata&) const = default;
 };
 struct MetadataIndex {
   std::uint64_t offset = 0, length = 0;
   std::string name;
+  static constexpr Opcode kOpcode = Opcode::metadata_index;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.offset);
+    visit(self.length);
+    visit(self.name);
+  }
 };
 struct Statistics {
   std::uint64_t messages = 0;
@@ -95,6 +156,18 @@ struct Statistics {
   std::uint32_t channels = 0, attachments = 0, metadata = 0, chunks = 0;
   std::uint64_t start_time = 0, end_time = 0;  ///< of the messages; 0 for none
   std::map<std::uint16_t, std::uint64_t> messages_by_channel;
+  static constexpr Opcode kOpcode = Opcode::statistics;
+  static void describe(auto& self, auto&& visit) {
+    visit(self.messages);
+    visit(self.schemas);
+    visit(self.channels);
+    visit(self.attachments);
+    visit(self.metadata);
+    visit(self.chunks);
+    visit(self.start_time);
+    visit(self.end_time);
+    visit(self.messages_by_channel);
+  }
 };
 
 /// Content of a record that is not of its kind.
@@ -116,8 +189,16 @@ class RecordReader {
   std::span<const std::uint8_t> bytes(std::uint64_t size);
   /// What has not been read.
   std::span<const std::uint8_t> rest() const { return bytes_.subspan(at_); }
-  std::map<std::string, std::string> texts();
-  std::map<std::uint16_t, std::uint64_t> numbers();
+
+  /// @name A field, by its type
+  ///@{
+  void read(std::uint16_t& value) { value = u16(); }
+  void read(std::uint32_t& value) { value = u32(); }
+  void read(std::uint64_t& value) { value = u64(); }
+  void read(std::string& value) { value = text(); }
+  void read(std::map<std::string, std::string>& texts);
+  void read(std::map<std::uint16_t, std::uint64_t>& numbers);
+  ///@}
 
  private:
   std::uint64_t number(std::size_t size);
@@ -137,8 +218,15 @@ class RecordWriter {
   void u64(std::uint64_t value) { number(value, 8); }
   void text(std::string_view text);
   void bytes(std::string_view bytes);
-  void texts(const std::map<std::string, std::string>& texts);
-  void numbers(const std::map<std::uint16_t, std::uint64_t>& numbers);
+  /// @name A field, by its type
+  ///@{
+  void write(std::uint16_t value) { u16(value); }
+  void write(std::uint32_t value) { u32(value); }
+  void write(std::uint64_t value) { u64(value); }
+  void write(const std::string& value) { text(value); }
+  void write(const std::map<std::string, std::string>& texts);
+  void write(const std::map<std::uint16_t, std::uint64_t>& numbers);
+  ///@}
   /// Begins a record; its length is set by end(). @returns what end() takes
   std::size_t begin(Opcode opcode);
   void end(std::size_t begin);
@@ -149,34 +237,29 @@ class RecordWriter {
   std::vector<std::uint8_t>& bytes_;
 };
 
-/// @name The content of records
-/// Bytes after the known ones are ignored, as the format requires. @throws RecordError
-///@{
-Header readHeader(std::span<const std::uint8_t>);
-Footer readFooter(std::span<const std::uint8_t>);
-Schema readSchema(std::span<const std::uint8_t>);
-Channel readChannel(std::span<const std::uint8_t>);
-ChunkIndex readChunkIndex(std::span<const std::uint8_t>);
-/// @param has_data false to leave the data empty and the checksum unchecked
-Attachment readAttachment(std::span<const std::uint8_t>, bool has_data = true);
-AttachmentIndex readAttachmentIndex(std::span<const std::uint8_t>);
-Metadata readMetadata(std::span<const std::uint8_t>);
-MetadataIndex readMetadataIndex(std::span<const std::uint8_t>);
-Statistics readStatistics(std::span<const std::uint8_t>);
-///@}
+/// The content of a record. Bytes after the known ones are ignored, as the format requires. @throws RecordError
+template <typename Record>
+Record read(std::span<const std::uint8_t> content) {
+  Record record;
+  RecordReader reader(content);
+  Record::describe(record, [&reader](auto& field) { reader.read(field); });
+  return record;
+}
+/// @throws RecordError also for an id of 0
+template <>
+Schema read<Schema>(std::span<const std::uint8_t> content);
+/// @param has_data false to leave the data empty and the checksum unchecked @throws RecordError
+Attachment readAttachment(std::span<const std::uint8_t> content, bool has_data = true);
 
-/// @name Whole records
-///@{
-void append(std::vector<std::uint8_t>&, const Header&);
-void append(std::vector<std::uint8_t>&, const Schema&);
-void append(std::vector<std::uint8_t>&, const Channel&);
-void append(std::vector<std::uint8_t>&, const ChunkIndex&);
-void append(std::vector<std::uint8_t>&, const Attachment&);
-void append(std::vector<std::uint8_t>&, const AttachmentIndex&);
-void append(std::vector<std::uint8_t>&, const Metadata&);
-void append(std::vector<std::uint8_t>&, const MetadataIndex&);
-void append(std::vector<std::uint8_t>&, const Statistics&);
-///@}
+/// Appends a whole record.
+template <typename Record>
+void append(std::vector<std::uint8_t>& bytes, const Record& record) {
+  RecordWriter writer(bytes);
+  const std::size_t begin = writer.begin(Record::kOpcode);
+  Record::describe(record, [&writer](const auto& field) { writer.write(field); });
+  writer.end(begin);
+}
+void append(std::vector<std::uint8_t>& bytes, const Attachment& attachment);
 
 /// CRC-32 of zlib. @param before of the bytes before these
 std::uint32_t crcOf(std::span<const std::uint8_t> bytes, std::uint32_t before = 0);
