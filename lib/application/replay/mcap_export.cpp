@@ -106,14 +106,8 @@ class McapSteps {
   }
 
   void noteChange(const std::string& comment, std::vector<std::string>& notes) {
-    const auto& before = objects_.orThose(model_->world.objects);
-    if (auto all = objectsIn(comment)) objects_ = std::move(*all);
-    if (auto moved = movedBy(comment, before)) objects_ = std::move(*moved);
-    const auto note = InterventionNote::parse(comment);
-    if (!note) return;
-    notes.push_back(comment);
-    std::vector<WorldObject> after = withChange(before, note->intervention.change);
-    if (after != before) objects_ = ChangedObjects(std::move(after));
+    if (auto after = objectsAfter(comment, objects_.orThose(model_->world.objects))) objects_ = std::move(*after);
+    if (InterventionNote::parse(comment)) notes.push_back(comment);
   }
 
   std::string rawlog_;

@@ -18,6 +18,44 @@ std::string noteOfAll(const ChangedObjects& changed) {
   return dumped(json);
 }
 
+/// nullopt if the comment is no note of an intervention. @throws ConfigError for one whose change is invalid
+std::optional<InterventionNote> noteIn(const nlohmann::json& json) {
+  if (!json.is_object() || !json.contains("robosim_intervention")) return std::nullopt;
+  try {
+    InterventionNote note{json.at("step"), {json.at("author"), {}}};
+    note.intervention.change = parseChange(json.at("change"), "intervention of step " + std::to_string(note.step));
+    return note;
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// The objects after a comment of movedNote(), from those before; nullopt if it is none, or of other objects.
+std::optional<ChangedObjects> movedBy(const nlohmann::json& json, const std::vector<WorldObject>& before) {
+  if (!json.is_object() || !json.contains("robosim_moved")) return std::nullopt;
+  try {
+    std::vector<WorldObject> objects = before;
+    for (const auto& place : json.at("places")) {
+      objects.at(place.at(0).get<std::size_t>()).body.world_from_body = {place.at(1), place.at(2), place.at(3)};
+    }
+    return ChangedObjects(std::move(objects));
+  } catch (const std::exception&) {  // of another form, or of an object that there is not
+    return std::nullopt;
+  }
+}
+
+/// The objects in a comment of noteOfAll(); nullopt if it is none. @throws ConfigError for an invalid object
+std::optional<ChangedObjects> objectsIn(const nlohmann::json& json) {
+  if (!json.is_object() || !json.contains("robosim_objects")) return std::nullopt;
+  std::vector<WorldObject> objects;
+  for (const auto& element : json.value("objects", nlohmann::json::array())) {
+    if (!element.is_string()) return std::nullopt;
+    const Change change = parseChange(element, "objects of a recording");
+    if (const auto* added = std::get_if<AddObject>(&change)) objects.push_back(added->object);
+  }
+  return ChangedObjects(std::move(objects));
+}
+
 }  // namespace
 
 std::string InterventionNote::text() const {
@@ -29,15 +67,7 @@ std::string InterventionNote::text() const {
 }
 
 std::optional<InterventionNote> InterventionNote::parse(const std::string& text) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("robosim_intervention")) return std::nullopt;
-  try {
-    InterventionNote note{json.at("step"), {json.at("author"), {}}};
-    note.intervention.change = parseChange(json.at("change"), "intervention of step " + std::to_string(note.step));
-    return note;
-  } catch (const nlohmann::json::exception&) {
-    return std::nullopt;
-  }
+  return noteIn(nlohmann::json::parse(text, nullptr, false));
 }
 
 std::vector<std::string> notesBefore(const State& state, std::uint64_t step, bool is_first) {
@@ -64,36 +94,11 @@ std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now)
   return dumped(json);
 }
 
-std::optional<ChangedObjects> movedBy(const std::string& text, const std::vector<WorldObject>& before) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("robosim_moved")) return std::nullopt;
-  try {
-    std::vector<WorldObject> objects = before;
-    for (const auto& place : json.at("places")) {
-      objects.at(place.at(0).get<std::size_t>()).body.world_from_body = {place.at(1), place.at(2), place.at(3)};
-    }
-    return ChangedObjects(std::move(objects));
-  } catch (const std::exception&) {  // of another form, or of an object that there is not
-    return std::nullopt;
-  }
-}
-
-std::optional<ChangedObjects> objectsIn(const std::string& text) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("robosim_objects")) return std::nullopt;
-  std::vector<WorldObject> objects;
-  for (const auto& element : json.value("objects", nlohmann::json::array())) {
-    if (!element.is_string()) return std::nullopt;
-    const Change change = parseChange(element, "objects of a recording");
-    if (const auto* added = std::get_if<AddObject>(&change)) objects.push_back(added->object);
-  }
-  return ChangedObjects(std::move(objects));
-}
-
 std::optional<ChangedObjects> objectsAfter(const std::string& text, const std::vector<WorldObject>& before) {
-  if (auto all = objectsIn(text)) return all;
-  if (auto moved = movedBy(text, before)) return moved;
-  const auto note = InterventionNote::parse(text);
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (auto all = objectsIn(json)) return all;
+  if (auto moved = movedBy(json, before)) return moved;
+  const auto note = noteIn(json);
   if (!note) return std::nullopt;
   std::vector<WorldObject> after = withChange(before, note->intervention.change);
   if (after == before) return std::nullopt;

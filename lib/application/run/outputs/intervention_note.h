@@ -26,10 +26,6 @@ std::vector<std::string> notesBefore(const State& state, std::uint64_t step, boo
 /// The note of objects that have moved since a recorded step: their places, or all objects if those were not recorded.
 /// Empty if none have.
 std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now);
-/// The objects after such a comment, from those before; nullopt if it is none, or of other objects.
-std::optional<ChangedObjects> movedBy(const std::string& text, const std::vector<WorldObject>& before);
-/// The objects in such a comment; nullopt if it is no note of them. @throws ConfigError for an invalid object
-std::optional<ChangedObjects> objectsIn(const std::string& text);
 /// The objects after a comment of a recording, from those before: by interventions, by robots that have moved them, or
 /// by a list of all; nullopt for a comment that changes none. @throws ConfigError for an invalid change or object
 std::optional<ChangedObjects> objectsAfter(const std::string& text, const std::vector<WorldObject>& before);
