@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/portable_math.h"
 #include "base/text_table.h"
 
 namespace robosim {
@@ -31,7 +32,7 @@ void SoccerReferee::observe(const Environment& environment) {
   const Body& ball = ballOf(environment).body;
   const auto& place = ball.world_from_body;
   const double now_s = environment.time().seconds();
-  if (std::hypot(place.x - rest_.x, place.y - rest_.y) > kStuck_m) {
+  if (portable::hypot(place.x - rest_.x, place.y - rest_.y) > kStuck_m) {
     rest_ = {place.x, place.y};
     rest_since_s_ = now_s;
   }
