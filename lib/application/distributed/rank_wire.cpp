@@ -75,6 +75,7 @@ void addCommand(StateWriter& writer, const Command& command) {
   writer.addNumber(static_cast<std::uint8_t>(command.activity));
   writer.addNumber(std::uint8_t{command.by_driver});
   writer.addNumber(std::uint8_t{command.emergency_stop});
+  writer.addNumber(std::uint8_t{command.grip});
 }
 
 void takeCommand(StateReader& in, Command& command) {
@@ -84,6 +85,7 @@ void takeCommand(StateReader& in, Command& command) {
   command.activity = in.takeActivity();
   command.by_driver = in.takeFlag();
   command.emergency_stop = in.takeFlag();
+  command.grip = in.takeFlag();
 }
 
 }  // namespace

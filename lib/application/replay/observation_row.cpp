@@ -50,6 +50,7 @@ void addStatus(const CObservationRawDAQ& daq, RowBuilder& row) {
   row.addInteger("activity", static_cast<int>(status.command.activity));
   row.addInteger("by_driver", status.command.by_driver ? 1 : 0);
   row.addInteger("emergency_stop", status.command.emergency_stop ? 1 : 0);
+  row.addInteger("grip", status.command.grip ? 1 : 0);
   row.add("pan_rad", status.laser_pan_rad);
   row.addInteger("stalled", status.stalled ? 1 : 0);
   row.addInteger("too_far", status.is_too_far ? 1 : 0);

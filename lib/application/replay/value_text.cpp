@@ -63,6 +63,7 @@ std::string statusInWords(const CObservation& observation) {
   std::string text = "command " + robosim::inWords(status.command);
   if (status.command.by_driver) text += ", by a person";
   if (status.command.emergency_stop) text += ", emergency stop";
+  if (status.command.grip) text += ", grip";
   if (status.stalled) text += "; stalled";
   if (status.is_too_far) text += "; too far to win";
   if (status.has_won) text += "; has won";

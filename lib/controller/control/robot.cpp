@@ -17,6 +17,7 @@ Robot::Robot(Hardware& hardware) : hardware_(hardware) {
     const auto kind = static_cast<std::size_t>(sensors[i].kind);
     if (slot_of_kind_.size() <= kind) slot_of_kind_.resize(kind + 1, -1);
     if (slot_of_kind_[kind] < 0) slot_of_kind_[kind] = static_cast<int>(i);
+    if (GripperState::isOf(sensors[i])) gripper_slot_ = i;
   }
 }
 
@@ -75,14 +76,22 @@ const Blobs& Robot::blobs() const {
   return found ? std::get<Blobs>(readings().measurements[*found]) : kNoBlobs;
 }
 
+GripperState Robot::gripper() const {
+  if (!gripper_slot_) return {};
+  return GripperState::from(std::get<Values>(readings().measurements[*gripper_slot_]));
+}
+
 void Robot::drive(double speed_mps, double turn_radps) {
   if (activity() != Activity::active) return;
-  hardware_.command({.speed_mps = speed_mps, .turn_radps = turn_radps, .laser_pan_rad = command().laser_pan_rad});
+  hardware_.command({.speed_mps = speed_mps,
+                     .turn_radps = turn_radps,
+                     .laser_pan_rad = command().laser_pan_rad,
+                     .grip = command().grip});
 }
 
 void Robot::stopInEmergency() {
   if (activity() != Activity::active) return;
-  hardware_.command({.laser_pan_rad = command().laser_pan_rad, .emergency_stop = true});
+  hardware_.command({.laser_pan_rad = command().laser_pan_rad, .emergency_stop = true, .grip = command().grip});
 }
 
 void Robot::panLaser(double pan_rad) {
@@ -92,6 +101,17 @@ void Robot::panLaser(double pan_rad) {
   hardware_.command(panned);
 }
 
-void Robot::halt(Activity why) { hardware_.command({.laser_pan_rad = command().laser_pan_rad, .activity = why}); }
+void Robot::grip() { setGrip(true); }
+void Robot::release() { setGrip(false); }
+void Robot::setGrip(bool is_closed) {
+  Command changed = command();
+  changed.grip = is_closed;
+  changed.by_driver = false;
+  hardware_.command(changed);
+}
+
+void Robot::halt(Activity why) {
+  hardware_.command({.laser_pan_rad = command().laser_pan_rad, .activity = why, .grip = command().grip});
+}
 
 }  // namespace robosim

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hardware/gripper_state.h"
 #include "hardware/hardware.h"
 
 namespace robosim {
@@ -64,6 +65,16 @@ class Robot {
 
   void drive(double speed_mps, double turn_radps);
   void panLaser(double pan_rad);  ///< [-π/2, π/2]
+  /// @name Gripper
+  /// Without effect on a robot that has none.
+  ///@{
+  void grip();     ///< closes it: from the next step on, it holds the object between its paddles, if there is one
+  void release();  ///< opens it: what it held stays where it is
+  bool held() const { return gripper().holds; }  ///< whether it holds an object
+  /// Of this step; of a robot without a gripper, that of an open one with nothing between its paddles.
+  GripperState gripper() const;
+  bool hasGripper() const { return gripper_slot_.has_value(); }
+  ///@}
   void stop() { drive(0, 0); }
   /// Stops as hard as the robot can (MotionLimits::emergency_decel_mps2), until the next drive().
   void stopInEmergency();
@@ -93,9 +104,11 @@ class Robot {
  private:
   std::optional<std::size_t> slot(SensorKind kind) const;
   std::optional<double> scalar(SensorKind kind) const;
+  void setGrip(bool is_closed);
 
   Hardware& hardware_;
   std::vector<int> slot_of_kind_;  ///< by kind; -1 for none
+  std::optional<std::size_t> gripper_slot_;
 };
 
 }  // namespace robosim

@@ -101,6 +101,7 @@ void RemoteControlRobot::step() {
     was_autonomous_ = false;
     view_->skipStep();
     driven.activity = view_->lastCommand().activity;  // final once the controller has halted
+    driven.grip = hardware_.lastCommand().grip;       // the driver has no order for it
     hardware_.command(driven);
   }
   const Command& commanded = autonomous ? view_->lastCommand() : driven;

@@ -21,6 +21,9 @@ struct Command {
   bool by_driver = false;  ///< commanded by a person (doc/remote_control.md), not by the controller
   /// Brakes at MotionLimits::emergency_decel_mps2, whatever the set points of the speeds.
   bool emergency_stop = false;
+  /// Closes the gripper, which then holds what is between its paddles; otherwise it is open, and holds nothing. Without
+  /// effect on a robot without a gripper.
+  bool grip = false;
   bool operator==(const Command&) const = default;
 };
 

@@ -152,6 +152,7 @@ void encode(const Command& command, v1::Command& out) {
   out.set_activity(encode(command.activity == Activity::absent ? Activity::active : command.activity));
   out.set_by_driver(command.by_driver);
   out.set_emergency_stop(command.emergency_stop);
+  out.set_grip(command.grip);
 }
 
 Command decode(const v1::Command& in, std::uint32_t robot) {
@@ -164,7 +165,8 @@ Command decode(const v1::Command& in, std::uint32_t robot) {
     throw WireError("the command for robot " + std::to_string(robot) + " has the activity " +
                     std::to_string(in.activity()) + "; there are 1 (active), 2 (halted) and 3 (found)");
   }
-  return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), *activity, in.by_driver(), in.emergency_stop()};
+  return {in.speed_mps(), in.turn_radps(),     in.laser_pan_rad(), *activity,
+          in.by_driver(), in.emergency_stop(), in.grip()};
 }
 
 void decode(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out) {

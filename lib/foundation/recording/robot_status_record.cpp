@@ -20,7 +20,7 @@ using mrpt::obs::CObservationRawDAQ;
 /// Indices of the outputs and inputs of STATUS.
 enum OutputColumn { kSpeed, kTurn, kPan, kActivity, kByDriver, kOutputs };
 /// Bits of kByDriver.
-constexpr int kIsByDriver = 1, kIsEmergencyStop = 2;
+constexpr int kIsByDriver = 1, kIsEmergencyStop = 2, kIsGripping = 4;
 enum Input { kLaserPan, kStalled, kTooFar, kWon, kInputs };
 
 std::shared_ptr<CObservationRawDAQ> rawDaq(const Label& label) {
@@ -136,8 +136,8 @@ void RobotStatusRecord::fillStatus(const Readings& readings, const Command& comm
   status.AOUT_double[kTurn] = command.turn_radps;
   status.AOUT_double[kPan] = command.laser_pan_rad;
   status.AOUT_double[kActivity] = static_cast<double>(command.activity);
-  status.AOUT_double[kByDriver] =
-      (command.by_driver ? kIsByDriver : 0) + (command.emergency_stop ? kIsEmergencyStop : 0);
+  status.AOUT_double[kByDriver] = (command.by_driver ? kIsByDriver : 0) +
+                                  (command.emergency_stop ? kIsEmergencyStop : 0) + (command.grip ? kIsGripping : 0);
   status.AIN_double[kLaserPan] = readings.laser_pan_rad;
   status.AIN_double[kStalled] = readings.stalled ? 1 : 0;
   status.AIN_double[kTooFar] = readings.is_too_far ? 1 : 0;
@@ -191,8 +191,8 @@ RobotStatus statusFrom(const CObservation& observation) {
   if (!(activity >= 0 && activity <= static_cast<double>(Activity::absent)))
     refuse(observation, "there is no such activity");
   const double by_driver = daq.AOUT_double[kByDriver];
-  if (!(by_driver >= 0 && by_driver <= kIsByDriver + kIsEmergencyStop))
-    refuse(observation, "whether a person drives is not a sum of 1 and 2");
+  if (!(by_driver >= 0 && by_driver <= kIsByDriver + kIsEmergencyStop + kIsGripping))
+    refuse(observation, "whether a person drives is not a sum of 1, 2 and 4");
   RobotStatus status;
   status.command.speed_mps = daq.AOUT_double[kSpeed];
   status.command.turn_radps = daq.AOUT_double[kTurn];
@@ -201,6 +201,7 @@ RobotStatus statusFrom(const CObservation& observation) {
   status.laser_pan_rad = static_cast<float>(daq.AIN_double[kLaserPan]);
   status.command.by_driver = (static_cast<int>(by_driver) & kIsByDriver) != 0;
   status.command.emergency_stop = (static_cast<int>(by_driver) & kIsEmergencyStop) != 0;
+  status.command.grip = (static_cast<int>(by_driver) & kIsGripping) != 0;
   status.stalled = daq.AIN_double[kStalled] != 0;
   status.is_too_far = daq.AIN_double[kTooFar] != 0;
   status.has_won = daq.AIN_double[kWon] != 0;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/held_object.h"
 #include "dynamics/movable_body.h"
 #include "geometry/scene.h"
 #include "geometry/shapes/path.h"
@@ -24,6 +25,7 @@ struct DrivenSurroundings {
   std::span<const MovableBody> bodies;
   std::span<const ObjectMotion> objects;
   std::span<const PushingDisc> robots;
+  std::span<const HeldObject> held;
   std::span<const Path> paths;  ///< of the robots
   double period_s;
   std::uint64_t seed;

@@ -77,6 +77,9 @@ class IslandSearch {
 
   /// Both bodies of a pair may move by the reach.
   void findNearPairs(const GroupMoment& from) {
+    for (std::size_t r = 0; r < group_.robots.size(); ++r) {
+      if (const auto partner = group_.robots[r].partner) sets_.join(objects_ + r, objects_ + *partner);
+    }
     for (std::uint32_t p = 0; p < group_.pairs.size(); ++p) {
       const auto& pair = group_.pairs[p];
       if (!mayTouch(group_, from, pair, 2 * reach_m_)) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/portable_math.h"
@@ -21,39 +22,52 @@ TPoint2D startOf(const Path& path) { return {path.world_from_start.x, path.world
 
 }  // namespace
 
-/// Finds what may touch in a step, and divides it into groups. Numbers of bodies are those of the scene's moving
-/// solids.
+/// Finds what may touch in a step, and divides it into groups. The bodies are discs that drive along paths, which are
+/// the robots and then the objects that they hold; then all objects.
 struct ObjectMover::Search {
   const ObjectMover& of;
   const Scene& scene;
   std::span<const Path> paths;
   std::span<const ObjectMotion> objects;
-  std::vector<std::uint8_t> robot_moves;  ///< by robot; paths change while groups are computed
-  std::vector<DrivenPlan> plans;          ///< by object
-  double speed_max_mps = 0;               ///< of all bodies at the start of the step
-  double reach_m = 0;                     ///< no object moves farther
+  std::span<const HeldObject> held;
+  std::vector<Path> held_paths;          ///< by held object
+  std::vector<PushingDisc> held_discs;   ///< by held object
+  std::vector<std::uint8_t> disc_moves;  ///< by disc; paths change while groups are computed
+  std::vector<DrivenPlan> plans;         ///< by object
+  double speed_max_mps = 0;              ///< of all bodies at the start of the step
+  double reach_m = 0;                    ///< no object moves farther
   double path_max_m = 0;
+  double radius_max_m = 0;  ///< of the discs
   Sets sets;
   std::vector<std::uint8_t> is_member;  ///< by body: an object that may move, or a robot that such a one may block
   std::vector<std::uint32_t> members;   ///< in the order found
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< lower body first; a member, and what it may touch
 
   Search(const ObjectMover& mover, const Scene& the_scene, double period_s, std::uint64_t seed,
-         std::span<const Path> the_paths, std::span<const ObjectMotion> the_objects)
+         std::span<const HeldObject> the_held, std::span<const Path> the_paths,
+         std::span<const ObjectMotion> the_objects)
       : of(mover),
         scene(the_scene),
         paths(the_paths),
         objects(the_objects),
-        sets(the_paths.size() + the_objects.size()),
-        is_member(the_paths.size() + the_objects.size()) {
-    for (const auto& path : paths) {
-      robot_moves.push_back(path.clippedLength() != 0 ? 1 : 0);
-      path_max_m = std::max(path_max_m, std::abs(path.clippedLength()));
-      // A clipped robot drives as fast as another, until it stops.
-      if (path.clippedLength() != 0) speed_max_mps = std::max(speed_max_mps, std::abs(path.length_m) / period_s);
+        held(the_held),
+        radius_max_m(mover.radius_max_m_),
+        sets(the_paths.size() + the_held.size() + the_objects.size()),
+        is_member(the_paths.size() + the_held.size() + the_objects.size()) {
+    for (const auto& path : paths) addPath(path, period_s);
+    for (const auto& object : held) {
+      held_paths.push_back(object.pathOf(paths[object.robot]));
+      held_discs.push_back({object.radius_m, object.heights, of.robots_[object.robot].push_max_n});
+      radius_max_m = std::max(radius_max_m, object.radius_m);
+      addPath(held_paths.back(), period_s);
+    }
+    // The two discs of a robot move together.
+    for (std::uint32_t h = 0; h < held.size(); ++h) {
+      disc_moves[held[h].robot] = disc_moves[robotCount() + h] =
+          disc_moves[held[h].robot] | disc_moves[robotCount() + h];
     }
     if (of.has_driven_) {
-      plans = planDriven({scene, of.surface_, of.bodies_, objects, of.robots_, paths, period_s, seed});
+      plans = planDriven({scene, of.surface_, of.bodies_, objects, of.robots_, held, paths, period_s, seed});
       for (const auto& plan : plans) speed_max_mps = std::max(speed_max_mps, plan.way_m / period_s);
     }
     for (std::size_t k = 0; k < objects.size(); ++k) {
@@ -68,26 +82,58 @@ struct ObjectMover::Search {
     reach_m = speed_max_mps * period_s + kSlack_m;
   }
 
-  bool isDriven(std::uint32_t body) const { return !isRobot(body) && object(body).isDriven(); }
+  void addPath(const Path& path, double period_s) {
+    disc_moves.push_back(path.clippedLength() != 0 ? 1 : 0);
+    path_max_m = std::max(path_max_m, std::abs(path.clippedLength()));
+    // A clipped robot drives as fast as another, until it stops.
+    if (path.clippedLength() != 0) speed_max_mps = std::max(speed_max_mps, std::abs(path.length_m) / period_s);
+  }
 
   std::uint32_t robotCount() const { return static_cast<std::uint32_t>(paths.size()); }
-  bool isRobot(std::uint32_t body) const { return body < paths.size(); }
-  std::uint32_t bodyOf(std::size_t object) const { return robotCount() + static_cast<std::uint32_t>(object); }
-  const MovableBody& object(std::uint32_t body) const { return of.bodies_[body - paths.size()]; }
-  bool moves(std::uint32_t robot) const { return robot_moves[robot] != 0; }
+  std::uint32_t discCount() const { return static_cast<std::uint32_t>(paths.size() + held.size()); }
+  bool isDisc(std::uint32_t body) const { return body < discCount(); }
+  bool isDriven(std::uint32_t body) const { return !isDisc(body) && object(body).isDriven(); }
+  std::uint32_t bodyOf(std::size_t object) const { return discCount() + static_cast<std::uint32_t>(object); }
+  /// @param moving index in the scene, of robots and then objects
+  std::uint32_t bodyOfMoving(std::uint32_t moving) const {
+    if (moving < robotCount()) return moving;
+    const auto h = heldIndex(moving - robotCount());
+    return h ? robotCount() + *h : bodyOf(moving - robotCount());
+  }
+  std::optional<std::uint32_t> heldIndex(std::size_t object) const {
+    for (std::uint32_t h = 0; h < held.size(); ++h) {
+      if (held[h].object == object) return h;
+    }
+    return std::nullopt;
+  }
+  /// The other disc of a robot that holds an object, of one of its discs; nullopt for other bodies.
+  std::optional<std::uint32_t> partnerOf(std::uint32_t body) const {
+    if (held.empty() || !isDisc(body)) return std::nullopt;
+    if (body >= robotCount()) return held[body - robotCount()].robot;
+    const HeldObject* const found = heldBy(held, body);
+    return found ? std::optional(robotCount() + static_cast<std::uint32_t>(found - held.data())) : std::nullopt;
+  }
+  const MovableBody& object(std::uint32_t body) const { return of.bodies_[body - discCount()]; }
+  const PushingDisc& disc(std::uint32_t body) const {
+    return body < robotCount() ? of.robots_[body] : held_discs[body - robotCount()];
+  }
+  const Path& pathOf(std::uint32_t disc) const {
+    return disc < robotCount() ? paths[disc] : held_paths[disc - robotCount()];
+  }
+  bool moves(std::uint32_t disc) const { return disc_moves[disc] != 0; }
   TPoint2D centerOf(std::uint32_t body) const {
-    if (isRobot(body)) return startOf(paths[body]);
-    const auto& pose = objects[body - paths.size()].world_from_object;
+    if (isDisc(body)) return startOf(pathOf(body));
+    const auto& pose = objects[body - discCount()].world_from_object;
     return {pose.x, pose.y};
   }
   double coverOf(std::uint32_t body) const {
-    return isRobot(body) ? of.robots_[body].radius_m : object(body).covering_radius_m;
+    return isDisc(body) ? disc(body).radius_m : object(body).covering_radius_m;
   }
   const HeightSpan& heightsOf(std::uint32_t body) const {
-    return isRobot(body) ? of.robots_[body].heights : object(body).heights;
+    return isDisc(body) ? disc(body).heights : object(body).heights;
   }
   /// The farthest that a body may move in this step.
-  double reachOf(std::uint32_t body) const { return isRobot(body) ? std::abs(paths[body].clippedLength()) : reach_m; }
+  double reachOf(std::uint32_t body) const { return isDisc(body) ? std::abs(pathOf(body).clippedLength()) : reach_m; }
 
   bool isCarried(std::size_t k) const {
     if (of.bodies_[k].isDriven()) return false;
@@ -102,17 +148,19 @@ struct ObjectMover::Search {
   /// Objects that move or stand on a belt, or that a robot drives against.
   void begin() {
     for (std::size_t k = 0; k < objects.size(); ++k) {
+      if (heldIndex(k)) continue;
       const bool is_driven_on = !plans.empty() && plans[k].way_m > 0;
       if (is_driven_on || !objects[k].isAtRest() || isCarried(k)) add(bodyOf(k));
     }
     std::vector<std::uint32_t> near;
-    for (std::uint32_t r = 0; r < robotCount(); ++r) {
-      if (!moves(r)) continue;
-      const double from_robot_m = coverOf(r) + reachOf(r) + kSlack_m;
-      scene.findMoving(centerOf(r), from_robot_m + of.cover_max_m_, scene.movingCount(), near);
-      for (const auto body : near) {
-        if (isRobot(body) || !heightsOf(body).overlaps(heightsOf(r))) continue;
-        if (isWithin(centerOf(r), centerOf(body), from_robot_m + coverOf(body))) add(body);
+    for (std::uint32_t d = 0; d < discCount(); ++d) {
+      if (!moves(d)) continue;
+      const double from_disc_m = coverOf(d) + reachOf(d) + kSlack_m;
+      scene.findMoving(centerOf(d), from_disc_m + of.cover_max_m_, scene.movingCount(), near);
+      for (const auto moving : near) {
+        const std::uint32_t body = bodyOfMoving(moving);
+        if (isDisc(body) || !heightsOf(body).overlaps(heightsOf(d))) continue;
+        if (isWithin(centerOf(d), centerOf(body), from_disc_m + coverOf(body))) add(body);
       }
     }
   }
@@ -123,9 +171,14 @@ struct ObjectMover::Search {
     for (std::size_t m = 0; m < members.size(); ++m) {
       const std::uint32_t body = members[m];
       const double own_m = coverOf(body) + reachOf(body) + kSlack_m;
-      const double other_max_m = std::max(of.cover_max_m_ + reach_m, of.radius_max_m_ + path_max_m);
+      const double other_max_m = std::max(of.cover_max_m_ + reach_m, radius_max_m + path_max_m);
+      if (const auto partner = partnerOf(body)) {
+        add(*partner);
+        sets.join(body, *partner);
+      }
       scene.findMoving(centerOf(body), own_m + other_max_m, scene.movingCount(), near);
-      for (const auto other : near) {
+      for (const auto moving : near) {
+        const std::uint32_t other = bodyOfMoving(moving);
         if (other != body && heightsOf(other).overlaps(heightsOf(body))) meet(body, other, own_m + coverOf(other));
       }
     }
@@ -136,11 +189,11 @@ struct ObjectMover::Search {
   /// @param touch_m distance of the centres within which the member may touch the other where that is now
   void meet(std::uint32_t member, std::uint32_t other, double touch_m) {
     const bool touches_where_it_is = isWithin(centerOf(member), centerOf(other), touch_m);
-    if (isRobot(other) && !moves(other)) return;      // an obstacle (addObstacles())
+    if (isDisc(other) && (!moves(other) || partnerOf(other) == member)) return;  // an obstacle (addObstacles())
     if (isDriven(member) && isDriven(other)) return;  // planDriven() has kept them apart; doors may be in walls
     if (!isWithin(centerOf(member), centerOf(other), touch_m + reachOf(other))) return;
     // An object at rest that cannot be touched is no member yet; if it becomes one, it meets this one.
-    if (!isRobot(other) && !is_member[other] && !touches_where_it_is) return;
+    if (!isDisc(other) && !is_member[other] && !touches_where_it_is) return;
     add(other);
     sets.join(member, other);
     pair(member, other);
@@ -166,32 +219,34 @@ struct ObjectMover::Search {
 
   /// @param bodies members, ascending
   PushingGroup groupOf(const std::vector<std::uint32_t>& bodies, std::span<Path> moved_paths,
-                       std::span<ObjectMotion> moved_objects) const {
+                       std::span<ObjectMotion> moved_objects) {
     PushingGroup group;
     group.reach_m = reach_m;
     group.speed_max_mps = speed_max_mps;
     group.belts = of.belts_;
+    const auto place = [&](std::uint32_t body) {
+      return static_cast<std::uint32_t>(std::lower_bound(bodies.begin(), bodies.end(), body) - bodies.begin());
+    };
     for (const auto body : bodies) {
-      if (isRobot(body)) {
-        group.robots.push_back({&of.robots_[body], &moved_paths[body]});
+      if (isDisc(body)) {
+        Path* const path = body < robotCount() ? &moved_paths[body] : &held_paths[body - robotCount()];
+        const auto partner = partnerOf(body);
+        group.robots.push_back({&disc(body), path, partner ? std::optional(place(*partner)) : std::nullopt});
       } else {
-        const std::size_t k = body - paths.size();
+        const std::size_t k = body - discCount();
         group.objects.push_back({&object(body), &moved_objects[k], plans.empty() ? nullptr : &plans[k]});
       }
     }
     const auto robots = static_cast<std::uint32_t>(group.robots.size());
-    const auto place = [&](std::uint32_t body) {
-      return static_cast<std::uint32_t>(std::lower_bound(bodies.begin(), bodies.end(), body) - bodies.begin());
-    };
     std::vector<BodyId> near;
     for (std::uint32_t k = 0; k < group.objects.size(); ++k) addObstacles(bodies[robots + k], k, near, group);
     for (const auto body : bodies) {
       for (auto it = std::lower_bound(pairs.begin(), pairs.end(), std::pair{body, std::uint32_t{0}});
            it != pairs.end() && it->first == body; ++it) {
         const std::uint32_t other = it->second;
-        if (!isRobot(body)) {
+        if (!isDisc(body)) {
           group.pairs.push_back({With::object, place(body) - robots, place(other) - robots});
-        } else if (isRobot(other)) {
+        } else if (isDisc(other)) {
           group.pairs.push_back({With::two_robots, place(body), place(other)});
         } else {
           group.pairs.push_back({With::robot, place(other) - robots, place(body)});
@@ -206,7 +261,7 @@ struct ObjectMover::Search {
                     PushingGroup& group) const {
     const TPoint2D center = centerOf(body);
     // Robots count as discs, which may be larger than their bodies.
-    const double far_m = coverOf(body) + reach_m + of.radius_max_m_;
+    const double far_m = coverOf(body) + reach_m + radius_max_m;
     const auto add_outline = [&](const Outline& outline) {
       group.pairs.push_back({With::stationary, object_in_group, static_cast<std::uint32_t>(group.stationary.size())});
       group.stationary.push_back(outline);
@@ -220,8 +275,8 @@ struct ObjectMover::Search {
         if (!isDriven(body)) add_outline(solid.outline);
         continue;
       }
-      const auto moving = static_cast<std::uint32_t>(scene.movingIndex(found));
-      if (isRobot(moving) && !moves(moving)) add_outline(Circle{centerOf(moving), coverOf(moving)});
+      const std::uint32_t other = bodyOfMoving(static_cast<std::uint32_t>(scene.movingIndex(found)));
+      if (isDisc(other) && !moves(other)) add_outline(Circle{centerOf(other), coverOf(other)});
     }
     const Bounds2D& surface = of.surface_;
     if (isDriven(body)) return;
@@ -261,9 +316,9 @@ std::vector<Outline> ObjectMover::edgesOf(const Bounds2D& surface) {
 }
 
 bool ObjectMover::move(const Scene& scene, const ParallelExecutor& workers, double period_s, std::uint64_t seed,
-                       std::span<Path> paths, std::span<ObjectMotion> objects) {
+                       std::span<const HeldObject> held, std::span<Path> paths, std::span<ObjectMotion> objects) {
   if (bodies_.empty()) return false;
-  Search search(*this, scene, period_s, seed, paths, objects);
+  Search search(*this, scene, period_s, seed, held, paths, objects);
   search.begin();
   bool has_waited = false;
   for (std::size_t k = 0; k < search.plans.size(); ++k) {

@@ -126,10 +126,10 @@ TEST(ObjectMover, ComputesNothingForObjectsAtRest) {
   world.addRobot({-2, 0, 0}, 0.1);
   std::vector<Path> paths{{world.poses[0], 0.01, 0}};
   ObjectMover mover(world.bodies, {}, world.robots, world.surface);
-  EXPECT_FALSE(mover.move(world.scene(), ParallelExecutor(1), 0.1, 1, paths, world.objects));
+  EXPECT_FALSE(mover.move(world.scene(), ParallelExecutor(1), 0.1, 1, {}, paths, world.objects));
   world.poses[0].x = -0.46;
   paths[0].world_from_start = world.poses[0];
-  EXPECT_TRUE(mover.move(world.scene(), ParallelExecutor(1), 0.1, 1, paths, world.objects))
+  EXPECT_TRUE(mover.move(world.scene(), ParallelExecutor(1), 0.1, 1, {}, paths, world.objects))
       << "10 mm ahead of the robot";
 }
 

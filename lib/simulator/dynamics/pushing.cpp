@@ -253,6 +253,9 @@ class PushingStep {
   /// connect nothing.
   Sets pushedTogether(const Island& island) const {
     Sets sets(to_.objects.size() + stops_.size());
+    for (const auto r : island.robots) {
+      if (const auto partner = group_.robots[r].partner) sets.join(nodeOf(r), nodeOf(*partner));
+    }
     for (const auto p : island.pairs) {
       const auto& pair = group_.pairs[p];
       if (!pushing_[p]) continue;
@@ -272,6 +275,7 @@ class PushingStep {
     std::vector<double> needed_j(to_.objects.size() + stops_.size()), available_j(needed_j.size());
     for (const auto i : island.objects) needed_j[sets.of(i)] += neededWork(i, duration_s);
     for (const auto r : island.robots) {
+      if (group_.robots[r].partner > r) continue;  // the second disc of a robot drives as far
       const TPoint2D way = to_.robots[r] - from_.robots[r];
       available_j[sets.of(nodeOf(r))] += group_.robots[r].disc->push_max_n * std::sqrt(dot(way, way));
     }
@@ -303,12 +307,22 @@ class PushingStep {
     return std::max(0.0, friction_j - std::max(0.0, energy_of(from_.objects[i]) - energy_of(to_.objects[i])));
   }
 
+  void stop(std::size_t r, double at) {
+    stops_[r] = at;
+    if (const auto partner = group_.robots[r].partner) stops_[*partner] = at;
+  }
+  /// For the rest of a part that is computed already.
+  void holdBack(std::size_t r) {
+    to_.robots[r] = from_.robots[r];
+    if (const auto partner = group_.robots[r].partner) to_.robots[*partner] = from_.robots[*partner];
+  }
+
   template <typename Blocked>
   bool stopRobots(const Island& island, double at, const Blocked& is_blocked) {
     bool has_stopped = false;
     for (const auto r : island.robots) {
       if (isAtRest(r) || !is_blocked(r)) continue;
-      stops_[r] = at;
+      stop(r, at);
       has_stopped = true;
     }
     return has_stopped;
@@ -320,8 +334,8 @@ class PushingStep {
       if (pair->with == With::robot && isDriven(pair->first) && !isAtRest(pair->second)) {
         // A robot that drives against a driven body does not hold it, and one that drives ahead of it is not stopped.
         if (!drivesTowards(*pair) && holdDriven(pair->first, at)) continue;
-        stops_[pair->second] = at;
-        to_.robots[pair->second] = from_.robots[pair->second];
+        stop(pair->second, at);
+        holdBack(pair->second);
         continue;
       }
       Sets sets = pushedTogether(island);
@@ -335,7 +349,7 @@ class PushingStep {
       }
       stopRobots(island, at, [&](std::size_t r) { return is_held(nodeOf(r)); });
       for (const auto r : island.robots) {
-        if (is_held(nodeOf(r))) to_.robots[r] = from_.robots[r];
+        if (is_held(nodeOf(r))) holdBack(r);
       }
     }
   }

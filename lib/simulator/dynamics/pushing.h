@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct PushingGroup {
   struct Robot {
     const PushingDisc* disc;
     Path* path;  ///< authorised; its end_fraction is reduced where the robot is blocked
+    /// Index of the other disc of a robot that holds an object: the two stop together.
+    std::optional<std::uint32_t> partner = {};
   };
   /// Bodies that may touch. The first is an object; or both are robots.
   struct Pair {

@@ -51,6 +51,8 @@ struct Environment::Impl {
   MoveAuthorisation move_authorisation;
   ObjectMover object_mover;
   std::vector<ObjectMotion> motions;  ///< of the movable objects: of State::objects and State::object_speeds
+  std::vector<HeldObject> held;       ///< of State::closed_grippers
+  std::vector<std::uint32_t> robots_with_gripper;
   MessageRouter message_router;
   RobotGroups robot_groups;
   std::vector<MotionLimits> limits;  ///< by robot
@@ -84,6 +86,9 @@ struct Environment::Impl {
         paths(fleet.robots.size()),
         antenna_z_m(ofRobots(fleet, [](const auto& robot) { return robot.body.heights().z_max_m; })),
         share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
+    for (std::uint32_t i = 0; i < fleet.robots.size(); ++i) {
+      if (fleet.robots[i].model->gripper) robots_with_gripper.push_back(i);
+    }
     noteState();
     placeBodies();
   }
@@ -115,6 +120,27 @@ struct Environment::Impl {
   void useObjects();
   /// Moves objects, and stops robots that they block, after the authorisation of moves.
   void moveObjects();
+  ///@}
+
+  /// @name Grippers (gripping.cpp)
+  ///@{
+  /// After State::closed_grippers or the motions were replaced. @throws std::invalid_argument for an object that there
+  /// is not
+  void noteHeld();
+  /// Opens the grippers whose commands say so. What they held is at rest then.
+  void openGrippers();
+  /// Closes the grippers whose commands say so, on what is between their paddles.
+  void closeGrippers();
+  /// Moves what robots hold to the ends of their paths. @return whether anything has moved
+  bool carry();
+  /// What an intervention takes away is held no longer.
+  void letGoOf(const std::string& object);
+  void letGo(std::size_t robot);
+  std::optional<HeldObject> objectBetweenPaddles(std::uint32_t robot) const;
+  ///@}
+
+  /// @name Objects that change
+  ///@{
   /// @param changed name of the object that is another or elsewhere: it is at rest then
   void setObjects(std::vector<WorldObject> objects, const std::string& changed);
   /// Speeds of a list of objects: those that objects of the same names have now.
@@ -134,6 +160,7 @@ struct Environment::Impl {
   }
 
   void takeCommands() {
+    if (!state.closed_grippers.empty()) openGrippers();
     known.forEach(workers, kRobotChunk, [&](std::size_t i) {
       Command& command = state.commands[i];
       if (state.activity[i] == Activity::active && command.activity != Activity::absent) {
@@ -148,6 +175,7 @@ struct Environment::Impl {
       state.turn_radps[i] = speeds.turn_radps;
       paths[i] = pathOf(state.world_from_robot[i], speeds, model->period_s);
     });
+    for (const auto& object : held) paths[object.robot].turn_stops = true;
   }
 
   void move() {
@@ -156,10 +184,13 @@ struct Environment::Impl {
     known.forEach(workers, kRobotChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
-      state.last_motion[i] = {path.clippedLength(), path.turn_rad};
+      state.last_motion[i] = {path.clippedLength(), path.clippedTurn()};
       state.driven_m[i] += std::abs(path.clippedLength());
       if (state.stalled[i]) state.speed_mps[i] = 0;  // blocked: starts from rest in the next step
     });
+    for (const auto& object : held) {
+      if (state.stalled[object.robot]) state.turn_radps[object.robot] = 0;
+    }
     const auto stalls_of = [&](std::size_t begin, std::size_t end) {
       std::uint64_t stalls = 0;
       for (std::size_t i = counted.begin + begin; i < counted.begin + end; ++i) stalls += state.stalled[i];
@@ -167,6 +198,7 @@ struct Environment::Impl {
     };
     state.stalls += workers.reduce(counted.end - counted.begin, std::uint64_t{0}, stalls_of, std::plus<>());
     placeBodies();
+    if (!robots_with_gripper.empty()) closeGrippers();
   }
 
   RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
@@ -236,6 +268,7 @@ struct Environment::Impl {
   void moveRobot(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
     state.world_from_robot[robot] = world_from_robot;
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
+    letGo(robot);
     if (state.isAbsent(robot)) resetRobot(state, robot, Activity::active, *fleet.robots[robot].model);
     ++pose_changes;
     noteAbsentRobots();
@@ -246,6 +279,7 @@ struct Environment::Impl {
     const auto changes_before = pose_changes;
     for (const std::size_t robot : robots) {
       if (state.isAbsent(robot)) continue;
+      letGo(robot);
       resetRobot(state, robot, Activity::absent, *fleet.robots[robot].model);
       ++pose_changes;
     }
@@ -262,7 +296,7 @@ struct Environment::Impl {
     }
     clearInboxes();
     takeCommands();
-    move_authorisation.begin(workers, known, paths);
+    move_authorisation.begin(workers, known, paths, held);
   }
 
   void deliverMessages() {

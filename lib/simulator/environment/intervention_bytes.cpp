@@ -79,6 +79,27 @@ void readSpeeds(StateReader& in, State& state) {
   }
 }
 
+void writeGrippers(const State& state, StateWriter& out) {
+  out.addNumber(static_cast<std::uint32_t>(state.closed_grippers.size()));
+  for (const ClosedGripper& gripper : state.closed_grippers) {
+    out.addNumber(gripper.robot);
+    out.addText(gripper.object);
+    out.addPose(gripper.robot_from_object);
+  }
+}
+
+void readGrippers(StateReader& in, std::size_t robots, State& state) {
+  std::uint64_t next = 0;
+  for (auto left = in.takeNumber<std::uint32_t>(); left > 0; --left) {
+    ClosedGripper& gripper = state.closed_grippers.emplace_back();
+    gripper.robot = in.takeNumber<std::uint32_t>();
+    requireContents(gripper.robot >= next && gripper.robot < robots, "a gripper is of an impossible robot");
+    next = gripper.robot + std::uint64_t{1};
+    gripper.object = in.takeText(kChangeBytesMax);
+    gripper.robot_from_object = in.takePose();
+  }
+}
+
 void writeInterventions(const State& state, StateWriter& out) {
   out.addNumber(state.interventions_applied);
   out.addNumber(static_cast<std::uint32_t>(state.interventions.size()));

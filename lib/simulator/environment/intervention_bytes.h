@@ -22,6 +22,11 @@ void writeSpeeds(const State& state, StateWriter& out);
 /// @param state has its objects already @throws InvalidContents
 void readSpeeds(StateReader& in, State& state);
 
+/// State::closed_grippers.
+void writeGrippers(const State& state, StateWriter& out);
+/// @param state has its objects already @param robots in the world @throws InvalidContents
+void readGrippers(StateReader& in, std::size_t robots, State& state);
+
 /// All members of the state that interventions change but those of robots.
 void writeInterventions(const State& state, StateWriter& out);
 /// @param state its time is that of the saved state @throws InvalidContents

@@ -10,6 +10,11 @@ constexpr std::size_t kPathChunk = 64;
 
 mrpt::math::TPoint2D startOf(const Path& path) { return {path.world_from_start.x, path.world_from_start.y}; }
 
+Mover moverOf(const HeldObject& held) { return {held.radius_m, held.heights}; }
+
+/// Whether nothing of a robot moves that could meet another.
+bool isStill(const Path& path) { return path.clippedLength() == 0 && (!path.turn_stops || path.clippedTurn() == 0); }
+
 }  // namespace
 
 MoveAuthorisation::MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& surface)
@@ -20,7 +25,11 @@ MoveAuthorisation::MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& 
   for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 
-void MoveAuthorisation::begin(const ParallelExecutor& workers, const KnownRobots& known, std::span<const Path> paths) {
+void MoveAuthorisation::begin(const ParallelExecutor& workers, const KnownRobots& known, std::span<const Path> paths,
+                              std::span<const HeldObject> held) {
+  held_.assign(held.begin(), held.end());
+  extent_max_m_ = radius_max_m_;
+  for (const auto& object : held_) extent_max_m_ = std::max(extent_max_m_, object.extent());
   length_max_m_ = known.inOrder([&](const auto& order) {
     const auto longest_of = [&](std::size_t begin, std::size_t end) {
       double longest_m = 0;
@@ -39,7 +48,7 @@ void MoveAuthorisation::clip(const Scene& scene, const ParallelExecutor& workers
   workers.forEach(range.end - range.begin, kPathChunk, [&](std::size_t k) {
     const std::size_t i = range.begin + k;
     may_have_neighbours_[i] = 0;
-    if (paths[i].length_m != 0) clip(scene, i, paths);
+    if (paths[i].length_m != 0 || paths[i].turn_stops) clip(scene, i, paths);
   });
 }
 
@@ -61,40 +70,73 @@ void MoveAuthorisation::conclude(const ParallelExecutor& workers, const KnownRob
   });
 }
 
+double MoveAuthorisation::extentOf(std::size_t robot) const {
+  const HeldObject* const held = heldBy(held_, robot);
+  return held ? std::max(movers_[robot].radius_m, held->extent()) : movers_[robot].radius_m;
+}
+
 std::span<const std::uint32_t> MoveAuthorisation::robotsNear(const Scene& scene, std::size_t robot,
                                                              const Path& path) const {
   static thread_local std::vector<std::uint32_t> found;
-  const double reach_m =
-      movers_[robot].radius_m + std::abs(path.length_m) + radius_max_m_ + length_max_m_ + kContactGap_m;
+  const double reach_m = extentOf(robot) + std::abs(path.length_m) + extent_max_m_ + length_max_m_ + kContactGap_m;
   scene.findMoving(startOf(path), reach_m, movers_.size(), found);
   return found;
 }
 
 void MoveAuthorisation::clip(const Scene& scene, std::size_t robot, std::span<Path> paths) {
   Path& path = paths[robot];
-  const Mover& mover = movers_[robot];
-  path.end_fraction = firstExit(path, mover.radius_m, surface_);
-  scene.clip(path, mover.radius_m, mover.heights, scene.movingBody(robot));
+  clipDisc(scene, robot, movers_[robot], scene.movingBody(robot), paths, path);
+  if (const HeldObject* const held = heldBy(held_, robot)) {
+    Path way = held->pathOf(path);
+    clipDisc(scene, robot, moverOf(*held), kNoBody, paths, way);
+    path.end_fraction = std::min(path.end_fraction, way.end_fraction);
+  }
+}
 
-  for (const auto other : robotsNear(scene, robot, path)) {
+void MoveAuthorisation::clipDisc(const Scene& scene, std::size_t robot, const Mover& disc, BodyId owner,
+                                 std::span<const Path> paths, Path& path) {
+  path.end_fraction = 1;
+  if (path.length_m == 0) return;
+  path.end_fraction = firstExit(path, disc.radius_m, surface_);
+  scene.clip(path, disc.radius_m, disc.heights, owner);
+
+  const auto stop_at = [&](const Mover& other, const mrpt::math::TPoint2D& center) {
+    if (!other.heights.overlaps(disc.heights)) return;
+    path.end_fraction = std::min(path.end_fraction, firstContact(path, disc.radius_m, Circle{center, other.radius_m}));
+  };
+  for (const auto other : robotsNear(scene, robot, paths[robot])) {
     if (other == robot) continue;
     may_have_neighbours_[robot] = 1;
-    if (!movers_[other].heights.overlaps(mover.heights)) continue;
-    const Circle disc{startOf(paths[other]), movers_[other].radius_m};
-    path.end_fraction = std::min(path.end_fraction, firstContact(path, mover.radius_m, disc));
+    stop_at(movers_[other], startOf(paths[other]));
+    if (const HeldObject* const held = heldBy(held_, other)) {
+      const auto pose = held->poseAt(paths[other].world_from_start);
+      stop_at(moverOf(*held), {pose.x, pose.y});
+    }
   }
 }
 
 bool MoveAuthorisation::collidesWithAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const {
   const Path& path = paths[robot];
   // Rule (a) has already clipped the path at robots that stand still, and a robot that stands still stays anyway.
-  if (path.clippedLength() == 0 || !may_have_neighbours_[robot]) return false;
-  const Mover& mover = movers_[robot];
+  if (isStill(path) || !may_have_neighbours_[robot]) return false;
   const auto near = robotsNear(scene, robot, path);
   return std::any_of(near.begin(), near.end(), [&](std::uint32_t other) {
-    return other != robot && paths[other].clippedLength() != 0 && movers_[other].heights.overlaps(mover.heights) &&
-           collide(path, mover.radius_m, paths[other], movers_[other].radius_m);
+    return other != robot && !isStill(paths[other]) && collide(robot, other, paths);
   });
+}
+
+bool MoveAuthorisation::collide(std::size_t robot, std::size_t other, std::span<const Path> paths) const {
+  const auto meet = [](const Path& a, const Mover& of_a, const Path& b, const Mover& of_b) {
+    return of_a.heights.overlaps(of_b.heights) && robosim::collide(a, of_a.radius_m, b, of_b.radius_m);
+  };
+  if (meet(paths[robot], movers_[robot], paths[other], movers_[other])) return true;
+  const HeldObject* const own = heldBy(held_, robot);
+  const HeldObject* const others = heldBy(held_, other);
+  if (own && meet(own->pathOf(paths[robot]), moverOf(*own), paths[other], movers_[other])) return true;
+  if (!others) return false;
+  const Path others_path = others->pathOf(paths[other]);
+  return meet(paths[robot], movers_[robot], others_path, moverOf(*others)) ||
+         (own && meet(own->pathOf(paths[robot]), moverOf(*own), others_path, moverOf(*others)));
 }
 
 }  // namespace robosim

@@ -25,6 +25,7 @@ void Environment::Impl::noteMotions() {
     }
     if (object.walker) motion.walk = object.walker->walk;
   }
+  noteHeld();
 }
 
 void Environment::Impl::useObjects() {
@@ -41,7 +42,8 @@ ObjectMover Environment::Impl::moverOfObjects() const {
 }
 
 void Environment::Impl::moveObjects() {
-  if (!object_mover.move(scene, workers, model->period_s, state.seed, paths, motions)) return;
+  const bool have_moved = object_mover.move(scene, workers, model->period_s, state.seed, held, paths, motions);
+  if (!carry() && !have_moved) return;
   for (std::size_t i = 0; i < paths.size(); ++i) state.stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
   const std::vector<std::uint32_t> moving = movingObjects(objects());
   bool have_changed = false;
@@ -64,6 +66,7 @@ void Environment::Impl::moveObjects() {
 
 void Environment::Impl::setObjects(std::vector<WorldObject> objects, const std::string& changed) {
   state.object_speeds = speedsOf(objects, changed);
+  letGoOf(changed);
   state.objects = ChangedObjects(std::move(objects));
   ++pose_changes;
   useObjects();

@@ -153,7 +153,8 @@ Snapshot PlacedBodies::snapshot(const State& state, std::span<const Path> paths,
           .surface = model_.world.bounds,
           .paths = paths,
           .driven_m = state.driven_m,
-          .reflectivity = reflectivity_};
+          .reflectivity = reflectivity_,
+          .closed_grippers = state.closed_grippers};
 }
 
 }  // namespace robosim

@@ -62,6 +62,7 @@ struct State {
   std::vector<Outbox> outboxes;            ///< messages for the next step
   std::vector<std::uint8_t> win_requests;  ///< 1 for a robot that requests CheckWin with the next step
   std::vector<Readings> readings;
+  std::vector<ClosedGripper> closed_grippers;  ///< in ascending order of robots
   std::optional<RobotAtStep> found;  ///< the first robot of Activity::found; of several, the first in the world's order
   std::optional<RobotAtStep> won;    ///< the robot that has won
   std::optional<std::uint64_t> all_halted_step;  ///< the first at whose end haveAllHalted()

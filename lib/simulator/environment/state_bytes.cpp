@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 7;  ///< since 7, with movable objects
+constexpr std::uint32_t kVersion = 8;  ///< since 8, with grippers
 constexpr std::size_t kSizeAt = 20;    ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
@@ -122,6 +122,7 @@ void writeRobot(const State& state, std::size_t i, StateWriter& out) {
   out.addNumber(static_cast<std::uint8_t>(command.activity));
   out.addNumber(std::uint8_t{command.by_driver});
   out.addNumber(std::uint8_t{command.emergency_stop});
+  out.addNumber(std::uint8_t{command.grip});
 
   out.addNumber(state.win_requests[i]);
   out.addNumber(state.outboxes[i].surplus);
@@ -169,6 +170,7 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   command.activity = in.takeActivity();
   command.by_driver = in.takeFlag();
   command.emergency_stop = in.takeFlag();
+  command.grip = in.takeFlag();
 
   state.win_requests[i] = in.takeFlag() ? 1 : 0;
   state.outboxes[i].surplus = in.takeNumber<std::uint64_t>();
@@ -269,6 +271,7 @@ State readContents(const Model& model, StateReader in) {
   state.time.step = in.takeNumber<std::uint64_t>();
   state.seed = in.takeNumber<std::uint64_t>();
   readInterventions(in, state);
+  readGrippers(in, robots, state);
   state.stalls = in.takeNumber<std::uint64_t>();
   state.messages_delivered = in.takeNumber<std::uint64_t>();
   state.messages_dropped = in.takeNumber<std::uint64_t>();
@@ -298,6 +301,7 @@ std::string toBytes(const Model& model, const State& state) {
   out.addNumber(state.time.step);
   out.addNumber(state.seed);
   writeInterventions(state, out);
+  writeGrippers(state, out);
   out.addNumber(state.stalls);
   out.addNumber(state.messages_delivered);
   out.addNumber(state.messages_dropped);

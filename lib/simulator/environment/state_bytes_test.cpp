@@ -111,9 +111,9 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   EXPECT_EQ(errorOf(model, damaged),
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
-  newer[16] = 8;
+  newer[16] = 9;
   EXPECT_EQ(errorOf(model, sealed(newer)),
-            "the saved state has version 8 of the format, and this program reads version 7; use the version of RoboSim "
+            "the saved state has version 9 of the format, and this program reads version 8; use the version of RoboSim "
             "that saved it");
   Model other = model;
   other.seed = 2;

@@ -167,6 +167,8 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { s.laser_pan_rad[1] += 1; },
       [](State& s) { s.commands[1].by_driver = !s.commands[1].by_driver; },
       [](State& s) { s.commands[1].emergency_stop = !s.commands[1].emergency_stop; },
+      [](State& s) { s.commands[1].grip = !s.commands[1].grip; },
+      [](State& s) { s.closed_grippers.push_back({.robot = 1, .object = {}}); },
       [](State& s) {
         s.outboxes[1].messages.push_back({0, "x"});
       },

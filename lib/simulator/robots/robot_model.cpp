@@ -191,7 +191,10 @@ void mountDescribed(const RobotDescription& description, Mounted& mounted, Error
 
 void describeSensors(Mounted& mounted) {
   std::vector<SensorInfo> infos;
-  for (const auto& sensor : mounted.model.sensors) infos.push_back(sensor->info());
+  for (const auto& sensor : mounted.model.sensors) {
+    infos.push_back(sensor->info());
+    if (const GripperOptions* gripper = gripperOptionsOf(*sensor)) mounted.model.gripper = *gripper;
+  }
   makeLabelsUnique(infos, mounted.labelled);
   mounted.model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
 }

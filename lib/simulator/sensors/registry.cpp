@@ -10,6 +10,7 @@
 #include "sensors/bumper.h"
 #include "sensors/camera.h"
 #include "sensors/compass.h"
+#include "sensors/gripper.h"
 #include "sensors/heat.h"
 #include "sensors/infrared.h"
 #include "sensors/laser.h"
@@ -74,6 +75,7 @@ const SensorType kOwnTypes[] = {
     {"beacons", "Ranges to ultra-wideband beacons.", true, readBeacons, nullptr},
     {"range_and_bearing", "Distance and direction to the nearest robots in line of sight.", true, readRangeAndBearing,
      nullptr},
+    {"gripper", "Two paddles that close on an object between them, with two light barriers.", false, readGripper, nullptr},
     {"blob_finder", "The largest blob of each given colour in a camera's picture.", false, readBlobFinder, nullptr},
 };
 // clang-format on

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPoint3D.h>
@@ -35,6 +36,14 @@ struct Motion {
   bool operator==(const Motion&) const = default;
 };
 
+/// A robot's gripper that is closed.
+struct ClosedGripper {
+  std::uint32_t robot = 0;  ///< index in the world
+  std::string object;       ///< that it holds; empty for none
+  mrpt::math::TPose2D robot_from_object = {};
+  bool operator==(const ClosedGripper&) const = default;
+};
+
 /// State of the world in which sensors measure, constant during a measurement. Arrays are indexed by robot, in the
 /// world's order.
 struct Snapshot {
@@ -51,9 +60,10 @@ struct Snapshot {
   ChangedObjects objects = {};    ///< of pictures; the scene has them already
   /// Area that robots stay in; nullopt: unbounded.
   std::optional<Bounds2D> surface = std::nullopt;
-  std::span<const Path> paths = {};          ///< of this step, clipped; empty: no motion has been blocked
-  std::span<const double> driven_m = {};     ///< distance driven since the start; empty: none
-  std::span<const float> reflectivity = {};  ///< by body; kReflectivity for bodies beyond its end
+  std::span<const Path> paths = {};                     ///< of this step, clipped; empty: no motion has been blocked
+  std::span<const double> driven_m = {};                ///< distance driven since the start; empty: none
+  std::span<const float> reflectivity = {};             ///< by body; kReflectivity for bodies beyond its end
+  std::span<const ClosedGripper> closed_grippers = {};  ///< in ascending order of robots
 
   /// Length of the commanded path that a robot could not drive in this step, signed [m].
   double blocked(std::uint32_t robot) const {

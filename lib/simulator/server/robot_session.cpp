@@ -195,8 +195,9 @@ void RobotSession::send(Environment& environment, std::size_t robot, const Robot
 void RobotSession::applyLeftAnswers(Environment& environment) {
   for (const auto& answer : left_answers_) {
     if (!driver_of_[answer.robot]) {
-      const bool is_emergency = environment.state().commands[answer.robot].emergency_stop;
-      environment.setCommand(answer.robot, {.activity = answer.activity, .emergency_stop = is_emergency});
+      const Command& last = environment.state().commands[answer.robot];
+      environment.setCommand(answer.robot,
+                             {.activity = answer.activity, .emergency_stop = last.emergency_stop, .grip = last.grip});
     }
     for (const auto& message : answer.messages) send(environment, answer.robot, message);
     if (answer.checks_win) environment.checkWin(answer.robot);
@@ -330,9 +331,9 @@ std::size_t RobotSession::applyAnswers(Environment& environment) {
   std::size_t late_now = 0;
   attendance_.countStep(environment.state().activity);
   for (const auto robot : left_) {
-    // As a driven robot stops when its driver is gone.
-    const bool is_driven = environment.state().commands[robot].by_driver;
-    if (!driver_of_[robot]) environment.setCommand(robot, {.emergency_stop = is_driven});
+    // As a driven robot stops when its driver is gone. It drops nothing.
+    const Command& last = environment.state().commands[robot];
+    if (!driver_of_[robot]) environment.setCommand(robot, {.emergency_stop = last.by_driver, .grip = last.grip});
   }
   left_.clear();
   applyLeftAnswers(environment);

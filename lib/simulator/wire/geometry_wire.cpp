@@ -59,6 +59,7 @@ void encode(const State& state, internal::ReplicaState& out) {
   StateWriter objects;
   writeObjects(state.objects, objects);
   writeSpeeds(state, objects);
+  writeGrippers(state, objects);
   out.set_objects(std::move(objects.bytes));
 }
 
@@ -81,6 +82,8 @@ void decodeInto(const internal::ReplicaState& in, State& state) {
     StateReader objects(in.objects());
     state.objects = readObjects(objects);
     readSpeeds(objects, state);
+    state.closed_grippers.clear();
+    readGrippers(objects, robots, state);
     if (!objects.isAtEnd()) throw WireError("a state with objects of another form");
   } catch (const InvalidContents& fault) {
     throw WireError(std::string("a state with invalid objects: ") + fault.what());

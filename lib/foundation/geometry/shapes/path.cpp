@@ -16,6 +16,7 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kTurnPerChord_rad = 3 * kRadPerDeg;
+constexpr double kTurnPerChordStopping_rad = 0.1 * kRadPerDeg;  // of Path::turn_stops
 /// A slide along a wall may appear as an approach of up to this much [m] per step because of rounding; it is not
 /// treated as one. A million such steps would use up the contact gap. Positions are relative to the disc's start, so
 /// the bound holds anywhere in the world.
@@ -117,14 +118,15 @@ std::optional<double> enterGrown(const TPoint2D& p_world, const TPoint2D& d_worl
 
 int Path::chords() const {
   if (length_m == 0) return 1;
-  return std::max(1, static_cast<int>(std::ceil(std::abs(turn_rad) / kTurnPerChord_rad)));
+  const double per_chord_rad = turn_stops ? kTurnPerChordStopping_rad : kTurnPerChord_rad;
+  return std::max(1, static_cast<int>(std::ceil(std::abs(turn_rad) / per_chord_rad)));
 }
 
 TPoint2D Path::centerAt(double fraction) const { return startOf(*this) + displacementAt(*this, fraction); }
 
 mrpt::math::TPose2D Path::endPose() const {
   const TPoint2D center = centerAt(1);
-  return {center.x, center.y, mrpt::math::wrapToPi(world_from_start.phi + turn_rad)};
+  return {center.x, center.y, mrpt::math::wrapToPi(world_from_start.phi + clippedTurn())};
 }
 
 double firstContact(const Path& path, double radius_m, const Outline& outline) {

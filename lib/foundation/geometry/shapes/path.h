@@ -17,14 +17,18 @@ struct Path {
   mrpt::math::TPose2D world_from_start;
   double length_m = 0;      ///< signed: negative backwards
   double turn_rad = 0;      ///< signed, CCW
-  double end_fraction = 1;  ///< fraction at which the centre stops; the turn still completes
+  double end_fraction = 1;  ///< fraction at which the centre stops; the turn still completes, unless turn_stops
+  /// The turn stops with the centre, as of a robot that holds an object. Its chords are shorter: at 0.5 m from the
+  /// centre they deviate from the arc by less than a fifth of kContactGap_m.
+  bool turn_stops = false;
 
   int chords() const;
   /// Position of the centre at a fraction of the step; constant beyond end_fraction.
   mrpt::math::TPoint2D centerAt(double fraction) const;
-  /// Pose at the end of the step: the centre where it stopped, the heading fully turned, within (-π, π].
+  /// Pose at the end of the step: the centre where it stopped, the heading as far as it turned, within (-π, π].
   mrpt::math::TPose2D endPose() const;
-  double clippedLength() const { return length_m * end_fraction; }  ///< signed [m]
+  double clippedLength() const { return length_m * end_fraction; }                        ///< signed [m]
+  double clippedTurn() const { return turn_stops ? turn_rad * end_fraction : turn_rad; }  ///< signed [rad]
 };
 
 /// Fraction in [0, 1] at which a disc on the path first comes within kContactGap_m of the outline; 1 when it never does

@@ -78,7 +78,7 @@ void ObjectWorld::step(double period_s, int threads) {
         std::min(paths.back().end_fraction, firstExit(paths.back(), robots[r].radius_m, surface));
   }
   ObjectMover mover(bodies, belts, robots, surface);
-  mover.move(scene(), ParallelExecutor(threads), period_s, 1, paths, objects);
+  mover.move(scene(), ParallelExecutor(threads), period_s, 1, {}, paths, objects);
   for (std::size_t r = 0; r < robots.size(); ++r) {
     poses[r] = paths[r].endPose();
     is_blocked[r] = paths[r].end_fraction < 1;

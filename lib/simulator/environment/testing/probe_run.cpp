@@ -149,6 +149,7 @@ void ProbeRun::prepare(Environment& environment) const {
       if (rng.below(100) == 0) command.activity = Activity::halted;
       command.by_driver = rng.below(2) == 0;
       command.emergency_stop = rng.below(8) == 0;
+      command.grip = command.by_driver != command.emergency_stop;
       environment.setCommand(i, command);
     }
     for (std::uint32_t k = rng.below(3); k > 0; --k) {

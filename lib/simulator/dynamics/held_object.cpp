@@ -1,0 +1,36 @@
+#include "dynamics/held_object.h"
+
+#include <algorithm>
+
+#include "base/portable_math.h"
+
+namespace robosim {
+
+mrpt::math::TPose2D HeldObject::poseAt(const mrpt::math::TPose2D& world_from_robot) const {
+  const auto [sin, cos] = portable::sincos(world_from_robot.phi);
+  const auto& offset = robot_from_object;
+  return {world_from_robot.x + cos * offset.x - sin * offset.y, world_from_robot.y + sin * offset.x + cos * offset.y,
+          world_from_robot.phi + offset.phi};
+}
+
+Path HeldObject::pathOf(const Path& of_robot) const {
+  Path path = of_robot;
+  const auto start = poseAt(of_robot.world_from_start);
+  // The velocity of the point in the robot's frame is constant: (v - ω·y, ω·x).
+  const double ahead_m = of_robot.length_m - of_robot.turn_rad * robot_from_object.y;
+  const double aside_m = of_robot.turn_rad * robot_from_object.x;
+  path.world_from_start = {start.x, start.y, of_robot.world_from_start.phi + portable::atan2(aside_m, ahead_m)};
+  path.length_m = portable::hypot(ahead_m, aside_m);
+  return path;
+}
+
+double HeldObject::extent() const { return portable::hypot(robot_from_object.x, robot_from_object.y) + radius_m; }
+
+const HeldObject* heldBy(std::span<const HeldObject> held, std::size_t robot) {
+  if (held.empty()) return nullptr;
+  const auto found = std::lower_bound(held.begin(), held.end(), robot,
+                                      [](const HeldObject& one, std::size_t of) { return one.robot < of; });
+  return found != held.end() && found->robot == robot ? &*found : nullptr;
+}
+
+}  // namespace robosim
