@@ -152,7 +152,10 @@ void bindReadings(RobotClass& robot) {
           "Messages received in the last step, as Message(sender, text).")
       .def_property_readonly(
           "winner", [](const PythonRobot& of) { return toPython(of.toRead().winner()); },
-          "Name of the robot that has won; empty until then.");
+          "Name of the robot that has won; empty until then.")
+      .def_property_readonly(
+          "held", [](const PythonRobot& of) { return of.toRead().held(); },
+          "Whether the gripper holds an object; False for a robot without one.");
 }
 
 void bindCommands(RobotClass& robot) {
@@ -162,6 +165,12 @@ void bindCommands(RobotClass& robot) {
       .def(
           "stop", [](const PythonRobot& of) { of.toCommand().stop(); }, "The same as drive(0, 0).")
       .def("pan_laser", panLaser, py::arg("pan_rad"), "Turns the sensors that pan: [-π/2, π/2].")
+      .def(
+          "grip", [](const PythonRobot& of) { of.toCommand().grip(); },
+          "Closes the gripper: from the next step on it holds the object between its paddles, if there is one.")
+      .def(
+          "release", [](const PythonRobot& of) { of.toCommand().release(); },
+          "Opens the gripper: what it held stays where it is.")
       .def(
           "halt",
           [](const PythonRobot& of, bool found) { of.toCommand().halt(found ? Activity::found : Activity::halted); },

@@ -84,6 +84,43 @@ TEST(ArcosBoard, AnswersTheHandshakeWithItsNameAndNothingElse) {
   EXPECT_NE(session.cycle(), "");
 }
 
+TEST(ArcosBoard, GripsWhatIsBetweenItsPaddles) {
+  BoardProgram program("p3dx_gripper");
+  AddObject can{{.name = "can", .movable = Movable{}, .line = {}}};
+  can.object.body = {.shape = Cylinder{0.05}, .world_from_body = {0.31, 0, 0}, .center_z_m = 0.1, .height_m = 0.2};
+  ASSERT_EQ(program.robot.environment().apply({"test", can}), "");
+  const auto can_x_m = [&] { return program.robot.environment().objects()[0].body.world_from_body.x; };
+
+  program.send(encodeCommand(command::gripper_request, 1));
+  program.steps(1);
+  const arcos::Packet* packet = program.packet(arcos::packet_type::gripper);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(arcos::hex(packet->payload), "02 3c 00") << "general IO; open, both light barriers interrupted";
+  EXPECT_EQ(program.sip.gripper, 0x3c);
+
+  program.send(encodeCommand(command::gripper, 2));
+  EXPECT_EQ(program.steps(1).gripper, 0x0d) << "not open, both paddles pressed";
+  program.send(encodeCommand(command::vel, -200));
+  program.steps(20);
+  EXPECT_NEAR(can_x_m() - program.robot.truePose().x, 0.31, 1e-9);
+  EXPECT_LT(can_x_m(), 0.1);
+  program.send(encodeCommand(command::gripper, 1));
+  program.steps(1);
+  const double dropped_x_m = can_x_m();
+  program.steps(10);
+  EXPECT_EQ(can_x_m(), dropped_x_m);
+}
+
+TEST(ArcosBoard, WithoutAGripperSaysSo) {
+  BoardProgram program;
+  program.send(encodeCommand(command::gripper_request, 1) + encodeCommand(command::gripper, 2));
+  program.steps(1);
+  const arcos::Packet* packet = program.packet(arcos::packet_type::gripper);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(packet->payload[0], '\0');
+  EXPECT_EQ(program.sip.gripper, 0);
+}
+
 TEST(ArcosBoard, AcceptsAnotherSync0AtAnyPointOfTheHandshake) {
   SimulatedArcosRobot robot("p3dx");
   auto& session = robot.session();

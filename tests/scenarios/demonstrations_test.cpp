@@ -39,6 +39,22 @@ TEST(Foraging, IsComparedByBenchMetrics) {
   EXPECT_NE(textOf(csv).find("collection.half_collected_s"), std::string::npos);
 }
 
+TEST(CarryGold, BringsAllGoldHome) {
+  for (const char* seed : {"1", "2", "3"}) {
+    const Json run =
+        runOf("carry_gold --observer \"collection end_percent=100\" --time 600 --seed " + std::string(seed));
+    EXPECT_EQ(run["metrics"]["collection.collected"], 10) << seed;
+    EXPECT_LT(run["metrics"]["collection.all_collected_s"], 200) << seed;
+  }
+}
+
+TEST(CarryGold, IsRepeatedFromItsRecording) {
+  const auto rawlog = emptyFolder() / "gold.rawlog";
+  runOf("carry_gold --time 60 --record " + quoted(rawlog));
+  const Ended check = runProgram("replay --check carry_gold " + quoted(rawlog));
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+}
+
 TEST(Soccer, HasGoalsOfBothTeamsInThreeGames) {
   double east = 0, west = 0;
   for (const char* seed : {"1", "2", "3"}) {

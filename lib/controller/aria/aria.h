@@ -10,6 +10,7 @@
 #include "aria/actions/action_joydrive.h"
 #include "aria/actions/action_keydrive.h"
 #include "aria/actions/action_ratio_input.h"
+#include "aria/gripper.h"
 #include "aria/key_handler.h"
 #include "aria/laser_device.h"
 #include "aria/pioneer_map.h"

@@ -130,8 +130,8 @@ TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
 
 TEST(Fleet, RejectsUnknownModelsAndControllersThatTheCheckRejects) {
   const std::string known =
-      "known are: amigo-sh, p3at, p3at-sh, p3dx, p3dx-sh, pioneer3dx, pioneer3dx_camera, pioneer3dx_driven, "
-      "pioneer3dx_polaroid, pusher, scout, scout_driven, sena_wheelchair, soccer_robot; " +
+      "known are: amigo-sh, carrier, p3at, p3at-sh, p3dx, p3dx-sh, p3dx_gripper, pioneer3dx, pioneer3dx_camera, "
+      "pioneer3dx_driven, pioneer3dx_polaroid, pusher, scout, scout_driven, sena_wheelchair, soccer_robot; " +
       robotTypeFoldersText();
   EXPECT_EQ(faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
                             placed("../robots/scout", "C", 4)})),

@@ -105,6 +105,9 @@ void ArcosBoard::execute(const Packet& packet) {
     case command::digout:
       setOutputs(*number);
       break;
+    case command::gripper:
+      moveGripper(*number);
+      break;
     case command::seta:
     case command::setv:
     case command::setra:
@@ -159,6 +162,18 @@ void ArcosBoard::setOutputs(int mask_and_values) {
   const auto mask = static_cast<std::uint8_t>(mask_and_values >> 8);
   const auto values = static_cast<std::uint8_t>(mask_and_values & 0xFF);
   digital_out_ = static_cast<std::uint8_t>((digital_out_ & ~mask) | (values & mask));
+}
+
+void ArcosBoard::moveGripper(int operation) {
+  using namespace arcos::gripper_operation;
+  if (operation == close || operation == store) robot_.grip();
+  if (operation == open || operation == deploy) robot_.release();
+}
+
+arcos::GripperPacket ArcosBoard::gripper() const {
+  if (!robot_.hasGripper()) return {};
+  const GripperState state = robot_.gripper();
+  return {arcos::GripperPacket::kGeneralIo, {state.is_closed, state.inner_beam, state.outer_beam}};
 }
 
 void ArcosBoard::update(bool is_link_alive) {
@@ -227,6 +242,7 @@ Sip ArcosBoard::sip() const {
       sip.sonars.push_back({static_cast<std::uint8_t>(i), rounded<std::uint16_t>(echoes[i].range_m * kMm)});
     }
   }
+  if (robot_.hasGripper()) sip.gripper = gripper().switches.byte();
   sip.digital_out = digital_out_;
   sip.turn_rate = rounded<std::int16_t>(motion.turn_radps / kRadPerDeg * 10);
   return sip;
@@ -243,6 +259,7 @@ arcos::ConfigPacket ArcosBoard::config() const {
   config.turn_accel_top = number(limits.turn_accel_radps2 / kRadPerDeg);
   config.accel_top = number(std::min(limits.accel_mps2, limits.decel_mps2) * kMm);
   config.cycle_ms = rounded<std::uint8_t>(arcos::kCycle_s * 1000);
+  config.has_gripper = robot_.hasGripper();
   config.has_front_sonar = parameters_.has_front_sonar;
   config.has_rear_sonar = parameters_.has_rear_sonar;
   config.low_battery_decivolts = rounded<std::uint16_t>(parameters_.low_battery_volts * 10);

@@ -4,6 +4,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include "arcos/protocol/config_packet.h"
+#include "arcos/protocol/gripper_packet.h"
 #include "arcos/protocol/io_packets.h"
 #include "arcos/protocol/packet.h"
 #include "arcos/protocol/parameters.h"
@@ -39,6 +40,7 @@ class ArcosBoard {
   arcos::Sip sip() const;
   arcos::ConfigPacket config() const;
   arcos::EncoderTicks encoderTicks() const;
+  arcos::GripperPacket gripper() const;
   arcos::DigitalPorts ports() const { return {.in = 0xFF, .out = digital_out_}; }
 
   /// Odometry in the frame of the session [m, rad].
@@ -49,6 +51,7 @@ class ArcosBoard {
   void executeMotion(std::uint8_t id, double argument);
   void setLimit(std::uint8_t id, double argument);
   void setOutputs(int mask_and_values);
+  void moveGripper(int operation);
   double batteryVolts() const;
   void addBumpers(arcos::Sip& sip) const;
 

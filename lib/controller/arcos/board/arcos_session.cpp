@@ -104,9 +104,23 @@ void ArcosSession::execute(const Packet& packet, std::string& answer) {
     case command::io_request:
       io_ = readStream(packet);
       return;
+    case command::gripper: {
+      const int operation = arcos::numberOf(packet).value_or(0);
+      awaits_gripper_value_ =
+          operation == arcos::gripper_operation::pressure || operation == arcos::gripper_operation::carry;
+      return robot_.board->execute(packet);
+    }
+    case command::gripper_request:
+      // Of a laser's last beam the argument is an angle in degrees.
+      if (const auto number = arcos::numberOf(packet); number && *number >= 0 && *number <= 2) {
+        gripper_ = readStream(packet);
+        return;
+      }
+      return configureLaser(packet);
+    case command::gripper_value:
+      if (std::exchange(awaits_gripper_value_, false)) return;
+      return configureLaser(packet);
     case command::old_laser_enable:
-    case command::old_laser_start:
-    case command::old_laser_end:
     case command::old_laser_increment:
     case command::laser_enable:
     case command::laser_start:
@@ -222,6 +236,7 @@ std::string ArcosSession::cycle() {
   packets += encode(robot_.board->sip());
   if (takes(encoder_)) packets += encode(robot_.board->encoderTicks());
   if (takes(io_)) packets += encode(robot_.board->ports());
+  if (takes(gripper_)) packets += encode(robot_.board->gripper());
   if (laser_.form != LaserRequest::Form::off) {
     packets += arcos::encodeScan(laser_.form, robot_.simulator->scan(), std::exchange(was_moved_, false));
   }

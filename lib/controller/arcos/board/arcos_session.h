@@ -88,7 +88,8 @@ class ArcosSession {
   std::string end_reason_;
   arcos::LaserRequest laser_;
   bool was_moved_ = false;
-  Stream encoder_ = Stream::off, io_ = Stream::off, sim_stat_ = Stream::off;
+  bool awaits_gripper_value_ = false;  ///< the next command::gripper_value is not of a laser
+  Stream encoder_ = Stream::off, io_ = Stream::off, gripper_ = Stream::off, sim_stat_ = Stream::off;
 };
 
 }  // namespace robosim

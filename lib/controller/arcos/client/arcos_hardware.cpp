@@ -10,10 +10,12 @@
 
 #include "arcos/protocol/bumpers.h"
 #include "arcos/protocol/command.h"
+#include "arcos/protocol/gripper_packet.h"
 #include "base/angle_units.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/portable_pose.h"
+#include "hardware/gripper_state.h"
 
 namespace robosim {
 namespace {
@@ -43,9 +45,18 @@ int rounded(double value, double& remainder) {
   return static_cast<int>(sent);
 }
 
-bool canReport(SensorKind kind) {
-  return kind == SensorKind::sonar || kind == SensorKind::laser || kind == SensorKind::bumper ||
-         kind == SensorKind::odometry || kind == SensorKind::compass || kind == SensorKind::battery;
+bool canReport(const SensorInfo& sensor) {
+  const SensorKind kind = sensor.kind;
+  return GripperState::isOf(sensor) || kind == SensorKind::sonar || kind == SensorKind::laser ||
+         kind == SensorKind::bumper || kind == SensorKind::odometry || kind == SensorKind::compass ||
+         kind == SensorKind::battery;
+}
+
+GripperState gripperFrom(const Sip& sip) {
+  const auto switches = arcos::GripperSwitches::from(sip.gripper);
+  // An object between closed paddles interrupts a light barrier.
+  const bool holds = switches.is_closed && (switches.inner_beam || switches.outer_beam);
+  return {switches.is_closed, holds, switches.inner_beam, switches.outer_beam};
 }
 
 SensorInfo batteryInfo() {
@@ -139,8 +150,9 @@ void ArcosHardware::describe(ArcosRobotType type) {
     const bool has_compass = client_.isSimulated() || client_.sip().compass != 0;
     const bool has_source = is_laser ? options_.laser || (client_.isSimulated() && canCarryScans(sensor))
                             : sensor.kind == SensorKind::compass ? has_compass
+                            : GripperState::isOf(sensor)         ? client_.config() && client_.config()->has_gripper
                                                                  : true;
-    if (canReport(sensor.kind) && has_source) {
+    if (canReport(sensor) && has_source) {
       sensors.push_back(sensor);
     } else {
       missing.push_back(sensor.label);
@@ -149,7 +161,10 @@ void ArcosHardware::describe(ArcosRobotType type) {
   }
   const auto is_battery = [](const SensorInfo& sensor) { return sensor.kind == SensorKind::battery; };
   if (std::none_of(sensors.begin(), sensors.end(), is_battery)) sensors.push_back(batteryInfo());
-  for (const auto& sensor : sensors) readings_.measurements.push_back(blankMeasurement(sensor));
+  for (const auto& sensor : sensors) {
+    readings_.measurements.push_back(blankMeasurement(sensor));
+    if (GripperState::isOf(sensor)) readings_.measurements.back() = GripperState{}.values();
+  }
   info_.sensors = std::make_shared<const std::vector<SensorInfo>>(std::move(sensors));
   readings_.time.period_s = arcos::kCycle_s;
   if (const auto& config = client_.config(); config && config->cycle_ms > 0) {
@@ -209,7 +224,14 @@ void ArcosHardware::enableMotors(bool on) {
 
 void ArcosHardware::enableSonar(bool on) { channel_->write(encodeCommand(command::sonar, on ? 1 : 0)); }
 
+void ArcosHardware::sendGrip() {
+  if (std::exchange(has_closed_gripper_, command_.grip) == command_.grip) return;
+  namespace operation = arcos::gripper_operation;
+  channel_->write(encodeCommand(command::gripper, command_.grip ? operation::close : operation::open));
+}
+
 void ArcosHardware::sendCommand() {
+  sendGrip();
   const bool may_move = base_.stop_reason.empty() && command_.activity == Activity::active;
   if (!may_move || command_.emergency_stop) {
     unsent_mmps_ = unsent_degps_ = 0;
@@ -288,6 +310,9 @@ void ArcosHardware::takeReadings() {
         break;
       case SensorKind::battery:
         measurement = Scalar{std::max<int>(sip.battery, sip.battery_decivolts) / 10.0};
+        break;
+      case SensorKind::values:
+        measurement = gripperFrom(sip).values();
         break;
       default:
         break;

@@ -86,6 +86,7 @@ class ArcosHardware final : public Hardware, public BaseLink {
   /// Sends the command, and waits for a step. @return false when `is_over` does
   bool awaitStep(const std::function<bool()>& is_over);
   void sendCommand();
+  void sendGrip();
   bool canCarryScans(const SensorInfo& laser) const;
   void processArrived(const std::string& bytes);
   bool isStepComplete() const;
@@ -104,6 +105,7 @@ class ArcosHardware final : public Hardware, public BaseLink {
   std::vector<std::string> names_;
   Readings readings_;
   Command command_;
+  bool has_closed_gripper_ = false;
   BaseState base_;
   bool motors_wanted_ = true;
   bool has_simulated_laser_ = false;

@@ -28,6 +28,11 @@ constexpr double kApproachBend = 1.6;  // curvature of the approach; 1 is the ar
 constexpr double kSpiral_rad = 0.8;    // largest angle between a distant disc and the robot's course
 constexpr double kPass_m = 0.12;       // gap that is kept to a disc on the way round it
 
+constexpr double kGripFrom_m = 0.25;     // gap to a disc from which a robot drives straight to grip it
+constexpr double kGripRoom_m = 0.05;     // gap that it keeps while it turns to the disc
+constexpr double kGripAhead_rad = 0.08;  // largest bearing of a disc that it grips
+constexpr double kGripSpeed_mps = 0.1;   // at which it drives to grip
+
 double wayBearing(const TPoint2D& offset) { return portable::atan2(offset.y, offset.x); }
 double wayLength(const TPoint2D& offset) { return portable::hypot(offset.x, offset.y); }
 TPoint2D from(const TPose2D& robot, const TPoint2D& place) { return {place.x - robot.x, place.y - robot.y}; }
@@ -115,6 +120,27 @@ void pushDisc(Robot& robot, const TPose2D& map_from_robot, const PushTask& task,
   }
   const double offset_rad = std::min(kApproachBend * std::abs(error_rad), std::max(tangent_rad, kSpiral_rad));
   driveTowards(robot, bearing_rad + std::copysign(offset_rad, error_rad), speed_mps);
+}
+
+void gripDisc(Robot& robot, const TPose2D& map_from_robot, const TPoint2D& disc, double radius_m, double speed_mps) {
+  const TPoint2D way = from(map_from_robot, disc);
+  const double gap_m = wayLength(way) - robot.info().radius_m - radius_m;
+  const double bearing_rad = wrapToPi(wayBearing(way) - map_from_robot.phi);
+  const bool was_closed = robot.command().grip;
+  robot.release();
+  if (gap_m > kGripFrom_m) {
+    driveTowards(robot, bearing_rad, speed_mps);
+    return;
+  }
+  const bool is_ahead = std::abs(bearing_rad) < kGripAhead_rad;
+  if (is_ahead && robot.gripper().inner_beam && !was_closed) robot.grip();
+  // From near, it turns on the spot first, and then drives straight.
+  const double creep_mps = std::min(speed_mps, kGripSpeed_mps);
+  if (is_ahead) {
+    robot.drive(creep_mps, kHeadingGain_per_s * bearing_rad / 2);
+  } else {
+    robot.drive(gap_m < kGripRoom_m ? -creep_mps : 0, std::clamp(kHeadingGain_per_s * bearing_rad, -1.0, 1.0));
+  }
 }
 
 }  // namespace robosim

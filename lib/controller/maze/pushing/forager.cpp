@@ -41,7 +41,12 @@ void Forager::step(Robot& robot) {
     backOff(robot);
     return;
   }
+  if (robot.held()) {
+    carry(robot, world_from_robot);
+    return;
+  }
   if (!selectPuck(robot, world_from_robot)) {
+    robot.release();
     search(robot, world_from_robot);
     return;
   }
@@ -56,6 +61,10 @@ void Forager::step(Robot& robot) {
     puck_.reset();
     back_until_ = robot.stepNumber() + robot.stepsIn(kPuckBackOff_s);
     backOff(robot);
+    return;
+  }
+  if (robot.hasGripper()) {
+    gripDisc(robot, world_from_robot, *puck_, options_.puck_radius_m, options_.speed_mps);
     return;
   }
   pushDisc(robot, world_from_robot, {*puck_, options_.puck_radius_m, options_.nest}, options_.speed_mps);
@@ -111,6 +120,17 @@ bool Forager::selectPuck(const Robot& robot, const TPose2D& world_from_robot) {
   seen_step_ = progress_step_ = now;
   nearest_m_ = nestDistance(*puck_);
   return true;
+}
+
+void Forager::carry(Robot& robot, const TPose2D& world_from_robot) {
+  puck_.reset();
+  if (nestDistance({world_from_robot.x, world_from_robot.y}) > options_.nest_radius_m - kNestInside_m) {
+    driveTo(robot, world_from_robot, options_.nest, options_.speed_mps, 0);
+    return;
+  }
+  robot.release();
+  back_until_ = robot.stepNumber() + robot.stepsIn(kPuckBackOff_s);
+  backOff(robot);
 }
 
 void Forager::search(Robot& robot, const TPose2D& world_from_robot) {

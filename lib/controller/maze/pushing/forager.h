@@ -19,9 +19,10 @@ struct ForagerOptions {
   double speed_mps = 0.5;
 };
 
-/// Pushes low round objects into a nest (central-place foraging): drives at random until its scanners detect one
-/// outside the nest, pushes it in, backs off, and continues. It knows its start pose in the world and the nest's place,
-/// and from there its own odometry and compass. Robots do not communicate.
+/// Brings low round objects into a nest (central-place foraging): drives at random until its scanners detect one
+/// outside the nest, pushes it in, backs off, and continues. A robot with a gripper carries it there instead. It knows
+/// its start pose in the world and the nest's place, and from there its own odometry and compass. Robots do not
+/// communicate.
 class Forager : public Controller {
  public:
   Forager(const ControllerSetup& setup, const ForagerOptions& options);
@@ -39,6 +40,8 @@ class Forager : public Controller {
   std::vector<mrpt::math::TPoint2D> pucksOutside(const Robot& robot, const mrpt::math::TPose2D& world_from_robot) const;
   /// Follows the puck that it pushes, or selects one; whether it has one.
   bool selectPuck(const Robot& robot, const mrpt::math::TPose2D& world_from_robot);
+  /// Grips the puck, carries it into the nest, and drops it there.
+  void carry(Robot& robot, const mrpt::math::TPose2D& world_from_robot);
   void search(Robot& robot, const mrpt::math::TPose2D& world_from_robot);
   void backOff(Robot& robot);
   double nestDistance(const mrpt::math::TPoint2D& place) const;

@@ -28,8 +28,11 @@ constexpr std::uint8_t rvel = 21;                        ///< turn rate
 constexpr std::uint8_t setra = 23;                       ///< turn acceleration if positive, deceleration if negative
 constexpr std::uint8_t sonar = 28;                       ///< 0 off, 1 on
 constexpr std::uint8_t stop = 29;
-constexpr std::uint8_t digout = 30;  ///< digital outputs: mask in the high byte, values in the low one
-constexpr std::uint8_t vel2 = 32;    ///< wheel speeds: left in the high byte, right in the low one
+constexpr std::uint8_t digout = 30;           ///< digital outputs: mask in the high byte, values in the low one
+constexpr std::uint8_t vel2 = 32;             ///< wheel speeds: left in the high byte, right in the low one
+constexpr std::uint8_t gripper = 33;          ///< gripper_packet.h
+constexpr std::uint8_t gripper_value = 36;    ///< after some operations; also old_laser_start
+constexpr std::uint8_t gripper_request = 37;  ///< as encoder, for packet_type::gripper; also old_laser_end
 constexpr std::uint8_t old_laser_enable = 35, old_laser_start = 36, old_laser_end = 37, old_laser_increment = 38;
 constexpr std::uint8_t io_request = 40;  ///< as encoder, for packet_type::io
 constexpr std::uint8_t bumpstall = 44;
@@ -53,6 +56,7 @@ constexpr std::uint8_t laser = 0x60, laser_extended = 0x61;     ///< laser_packe
 constexpr std::uint8_t sim_stat = 0x62, sim_info = 0x63;        ///< simulator_packets.h
 constexpr std::uint8_t sim_map = 0x66;                          ///< simulator_packets.h
 constexpr std::uint8_t encoder = 0x90, io = 0xF0;               ///< io_packets.h
+constexpr std::uint8_t gripper = 0xE0;                          ///< gripper_packet.h
 }  // namespace packet_type
 
 /// Encodes a command without an argument.

@@ -19,7 +19,7 @@ std::string encode(const ConfigPacket& config) {
   bytes.add(u16(400));  // largest duty cycle of the motors
   bytes.addText(config.name);
   bytes.add(config.cycle_ms).add(u8(0)).add(u8(0));  // baud rates of the host and the auxiliary port
-  bytes.add(u16(0));                                 // gripper
+  bytes.add(u16(config.has_gripper));
   bytes.add(u16(config.has_front_sonar)).add(u8(config.has_rear_sonar));
   bytes.add(config.low_battery_decivolts);
   bytes.add(u16(16570));  // encoder ticks per turn of the robot
@@ -64,7 +64,7 @@ std::optional<ConfigPacket> decodeConfig(const Packet& packet) {
   config.cycle_ms = bytes.take<std::uint8_t>();
   skip8();
   skip8();
-  skip16(1);
+  config.has_gripper = bytes.take<std::uint16_t>() != 0;
   config.has_front_sonar = bytes.take<std::uint16_t>() != 0;
   config.has_rear_sonar = bytes.take<std::uint8_t>() != 0;
   config.low_battery_decivolts = bytes.take<std::uint16_t>();

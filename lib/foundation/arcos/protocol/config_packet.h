@@ -17,6 +17,7 @@ struct ConfigPacket {
   std::string name;
   std::uint16_t turn_top = 0, speed_top = 0, turn_accel_top = 0, accel_top = 0;
   std::uint8_t cycle_ms = 100;
+  bool has_gripper = false;
   bool has_front_sonar = false, has_rear_sonar = false;
   std::uint16_t low_battery_decivolts = 0;
   std::uint16_t watchdog_ms = 0;

@@ -13,7 +13,8 @@ std::string encode(const Sip& sip) {
   bytes.add(sip.flags).add(sip.compass);
   bytes.add(static_cast<std::uint8_t>(sip.sonars.size()));
   for (const auto& sonar : sip.sonars) bytes.add(sonar.index).add(sonar.range);
-  bytes.add(std::uint8_t{0}).add(std::uint8_t{0}).add(std::uint8_t{0});  // gripper, analog port and value
+  // ARIA takes the gripper's state from the byte after its own, the analog port.
+  bytes.add(sip.gripper).add(sip.gripper).add(std::uint8_t{0});  // analog value
   bytes.add(sip.digital_in).add(sip.digital_out).add(sip.battery_decivolts).add(sip.charge_state);
   bytes.add(sip.turn_rate).add(sip.fault_flags);
   bytes.add(std::int16_t{0});  // lateral speed
@@ -46,7 +47,8 @@ std::optional<Sip> decodeSip(const Packet& packet) {
   sip.battery_decivolts = sip.battery;
   const auto has = [&](std::size_t size) { return bytes.rest().size() >= size; };
   if (!has(3)) return sip;
-  bytes.take<std::uint16_t>();  // gripper, analog port
+  sip.gripper = bytes.take<std::uint8_t>();
+  bytes.take<std::uint8_t>();  // analog port
   bytes.take<std::uint8_t>();
   if (has(1)) sip.digital_in = bytes.take<std::uint8_t>();
   if (has(1)) sip.digital_out = bytes.take<std::uint8_t>();

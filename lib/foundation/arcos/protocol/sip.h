@@ -32,6 +32,7 @@ struct Sip {
   std::uint16_t flags = 0;
   std::uint8_t compass = 0;   ///< [2 degrees]
   std::vector<Sonar> sonars;  ///< at most 32
+  std::uint8_t gripper = 0;   ///< GripperSwitches::byte(); 0 without a gripper
   std::uint8_t digital_in = 0xFF;
   std::uint8_t digital_out = 0xFF;
   std::uint16_t battery_decivolts = 0;  ///< the battery again, for more than 25.5 V
