@@ -86,7 +86,9 @@ TEST(ArcosBoard, AnswersTheHandshakeWithItsNameAndNothingElse) {
 
 TEST(ArcosBoard, GripsWhatIsBetweenItsPaddles) {
   BoardProgram program("p3dx_gripper");
-  AddObject can{{.name = "can", .movable = Movable{}, .line = {}}};
+  AddObject can;
+  can.object.name = "can";
+  can.object.movable = Movable{};
   can.object.body = {.shape = Cylinder{0.05}, .world_from_body = {0.31, 0, 0}, .center_z_m = 0.1, .height_m = 0.2};
   ASSERT_EQ(program.robot.environment().apply({"test", can}), "");
   const auto can_x_m = [&] { return program.robot.environment().objects()[0].body.world_from_body.x; };

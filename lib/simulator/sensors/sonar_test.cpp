@@ -237,7 +237,7 @@ TEST(Sonar, ReportsFaultsOfItsElement) {
   EXPECT_EQ(
       complaint("<radar/>"),
       "sensor.xml:1: <radar>: is not a sensor; accepted are: sonar, laser, heat, infrared, bumper, odometry, compass, "
-      "camera, battery, beacons, range_and_bearing, blob_finder, "
+      "camera, battery, beacons, range_and_bearing, gripper, blob_finder, "
       "and the 2005 <sensor>");
 }
 
