@@ -82,11 +82,10 @@ GripperState Robot::gripper() const {
 }
 
 void Robot::drive(double speed_mps, double turn_radps) {
-  if (activity() != Activity::active) return;
-  hardware_.command({.speed_mps = speed_mps,
-                     .turn_radps = turn_radps,
-                     .laser_pan_rad = command().laser_pan_rad,
-                     .grip = command().grip});
+  const Command& last = command();
+  if (last.activity != Activity::active) return;
+  hardware_.command(
+      {.speed_mps = speed_mps, .turn_radps = turn_radps, .laser_pan_rad = last.laser_pan_rad, .grip = last.grip});
 }
 
 void Robot::stopInEmergency() {

@@ -10,9 +10,10 @@ namespace robosim {
 /// The hardware of a robot that is simulated in this process. The environment must outlive it.
 class LocalHardware : public Hardware, public RefereeLink {
  public:
-  LocalHardware(Environment& environment, std::size_t robot) : environment_(environment), robot_(robot) {}
+  LocalHardware(Environment& environment, std::size_t robot)
+      : environment_(environment), robot_(robot), info_(environment.fleet().robots[robot].info) {}
 
-  const RobotInfo& info() const override { return environment_.fleet().robots[robot_].info; }
+  const RobotInfo& info() const override { return info_; }
   const std::vector<std::string>& robots() const override { return environment_.robotNames(); }
   const Readings& readings() const override { return environment_.state().readings[robot_]; }
   void command(const Command& command) override { environment_.setCommand(robot_, command); }
@@ -25,6 +26,7 @@ class LocalHardware : public Hardware, public RefereeLink {
  private:
   Environment& environment_;
   std::size_t robot_;
+  const RobotInfo& info_;  ///< kept, because controllers ask for it many times in a step
 };
 
 }  // namespace robosim

@@ -12,6 +12,12 @@ mrpt::math::TPoint2D startOf(const Path& path) { return {path.world_from_start.x
 
 Mover moverOf(const HeldObject& held) { return {held.radius_m, held.heights}; }
 
+/// Clips the path of a disc at one that stands.
+void clipAt(const Mover& standing, const mrpt::math::TPoint2D& center, const Mover& disc, Path& path) {
+  if (!standing.heights.overlaps(disc.heights)) return;
+  path.end_fraction = std::min(path.end_fraction, firstContact(path, disc.radius_m, Circle{center, standing.radius_m}));
+}
+
 /// Whether nothing of a robot moves that could meet another.
 bool isStill(const Path& path) { return path.clippedLength() == 0 && (!path.turn_stops || path.clippedTurn() == 0); }
 
@@ -48,7 +54,10 @@ void MoveAuthorisation::clip(const Scene& scene, const ParallelExecutor& workers
   workers.forEach(range.end - range.begin, kPathChunk, [&](std::size_t k) {
     const std::size_t i = range.begin + k;
     may_have_neighbours_[i] = 0;
-    if (paths[i].length_m != 0 || paths[i].turn_stops) clip(scene, i, paths);
+    if (paths[i].length_m != 0) clip(scene, i, movers_[i], scene.movingBody(i), paths, paths[i]);
+  });
+  workers.forEach(held_.size(), 1, [&](std::size_t h) {
+    if (range.contains(held_[h].robot)) clipHeld(scene, held_[h], paths);
   });
 }
 
@@ -78,39 +87,32 @@ double MoveAuthorisation::extentOf(std::size_t robot) const {
 std::span<const std::uint32_t> MoveAuthorisation::robotsNear(const Scene& scene, std::size_t robot,
                                                              const Path& path) const {
   static thread_local std::vector<std::uint32_t> found;
-  const double reach_m = extentOf(robot) + std::abs(path.length_m) + extent_max_m_ + length_max_m_ + kContactGap_m;
+  const double own_m = held_.empty() ? movers_[robot].radius_m : extentOf(robot);
+  const double reach_m = own_m + std::abs(path.length_m) + extent_max_m_ + length_max_m_ + kContactGap_m;
   scene.findMoving(startOf(path), reach_m, movers_.size(), found);
   return found;
 }
 
-void MoveAuthorisation::clip(const Scene& scene, std::size_t robot, std::span<Path> paths) {
-  Path& path = paths[robot];
-  clipDisc(scene, robot, movers_[robot], scene.movingBody(robot), paths, path);
-  if (const HeldObject* const held = heldBy(held_, robot)) {
-    Path way = held->pathOf(path);
-    clipDisc(scene, robot, moverOf(*held), kNoBody, paths, way);
-    path.end_fraction = std::min(path.end_fraction, way.end_fraction);
-  }
+void MoveAuthorisation::clipHeld(const Scene& scene, const HeldObject& held, std::span<Path> paths) {
+  Path way = held.pathOf(paths[held.robot]);
+  if (way.length_m == 0) return;
+  clip(scene, held.robot, moverOf(held), kNoBody, paths, way);
+  paths[held.robot].end_fraction = std::min(paths[held.robot].end_fraction, way.end_fraction);
 }
 
-void MoveAuthorisation::clipDisc(const Scene& scene, std::size_t robot, const Mover& disc, BodyId owner,
-                                 std::span<const Path> paths, Path& path) {
-  path.end_fraction = 1;
-  if (path.length_m == 0) return;
+void MoveAuthorisation::clip(const Scene& scene, std::size_t robot, const Mover& disc, BodyId owner,
+                             std::span<const Path> paths, Path& path) {
   path.end_fraction = firstExit(path, disc.radius_m, surface_);
   scene.clip(path, disc.radius_m, disc.heights, owner);
 
-  const auto stop_at = [&](const Mover& other, const mrpt::math::TPoint2D& center) {
-    if (!other.heights.overlaps(disc.heights)) return;
-    path.end_fraction = std::min(path.end_fraction, firstContact(path, disc.radius_m, Circle{center, other.radius_m}));
-  };
   for (const auto other : robotsNear(scene, robot, paths[robot])) {
     if (other == robot) continue;
     may_have_neighbours_[robot] = 1;
-    stop_at(movers_[other], startOf(paths[other]));
+    clipAt(movers_[other], startOf(paths[other]), disc, path);
+    if (held_.empty()) continue;
     if (const HeldObject* const held = heldBy(held_, other)) {
       const auto pose = held->poseAt(paths[other].world_from_start);
-      stop_at(moverOf(*held), {pose.x, pose.y});
+      clipAt(moverOf(*held), {pose.x, pose.y}, disc, path);
     }
   }
 }
@@ -130,6 +132,7 @@ bool MoveAuthorisation::collide(std::size_t robot, std::size_t other, std::span<
     return of_a.heights.overlaps(of_b.heights) && robosim::collide(a, of_a.radius_m, b, of_b.radius_m);
   };
   if (meet(paths[robot], movers_[robot], paths[other], movers_[other])) return true;
+  if (held_.empty()) return false;
   const HeldObject* const own = heldBy(held_, robot);
   const HeldObject* const others = heldBy(held_, other);
   if (own && meet(own->pathOf(paths[robot]), moverOf(*own), paths[other], movers_[other])) return true;

@@ -43,11 +43,12 @@ class MoveAuthorisation {
                 std::span<std::uint8_t> stalled);
 
  private:
-  void clip(const Scene& scene, std::size_t robot, std::span<Path> paths);
+  /// Clips the path of a robot at the first contact of what it holds.
+  void clipHeld(const Scene& scene, const HeldObject& held, std::span<Path> paths);
   /// Clips the path of one of a robot's discs at its first contact with what stands.
   /// @param owner the disc's body in the scene
-  void clipDisc(const Scene& scene, std::size_t robot, const Mover& disc, BodyId owner, std::span<const Path> paths,
-                Path& path);
+  void clip(const Scene& scene, std::size_t robot, const Mover& disc, BodyId owner, std::span<const Path> paths,
+            Path& path);
   /// The robots that could collide with a robot in this step, and the robot itself. Valid until the thread's next call.
   std::span<const std::uint32_t> robotsNear(const Scene& scene, std::size_t robot, const Path& path) const;
   bool collidesWithAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const;
