@@ -40,9 +40,11 @@ struct Tile {
   Mesh bodies, shadows;
 };
 
-std::vector<Body> bodiesOf(const std::vector<WorldObject>& objects) {
+std::vector<Body> bodiesOf(const std::vector<WorldObject>& objects, bool are_stationary) {
   std::vector<Body> bodies;
-  for (const auto& object : objects) bodies.push_back(object.body);
+  for (const auto& object : objects) {
+    if (object.isStationary() == are_stationary) bodies.push_back(object.body);
+  }
   return bodies;
 }
 
@@ -88,12 +90,21 @@ struct WorldScene::Impl {
 
   using Parts = std::vector<mrpt::opengl::CRenderizable::Ptr>;
 
+  /// Objects of the world, made again only when one of them is another or elsewhere.
+  struct Objects {
+    bool are_stationary;
+    std::vector<Body> bodies = {};
+    Parts parts = {};
+  };
+
   Parts partsOf(std::vector<Body> bodies) const;
+  /// @return whether the parts are new
+  bool set(Objects& of_kind, const std::vector<WorldObject>& all_objects) const;
   void addRobots(const World& world, const Fleet& fleet);
 
   Bounds2D bounds;
-  Parts all;      ///< but the objects
-  Parts objects;  ///< of the world
+  Parts all;  ///< but the objects
+  Objects kinds[2]{{.are_stationary = true}, {.are_stationary = false}};
   std::vector<RobotGroup> groups;
   struct RobotInstance {
     std::size_t group, instance;
@@ -112,6 +123,14 @@ WorldScene::Impl::Parts WorldScene::Impl::partsOf(std::vector<Body> bodies) cons
     parts.push_back(shadows);
   }
   return parts;
+}
+
+bool WorldScene::Impl::set(Objects& of_kind, const std::vector<WorldObject>& all_objects) const {
+  std::vector<Body> bodies = bodiesOf(all_objects, of_kind.are_stationary);
+  if (bodies == of_kind.bodies) return false;
+  of_kind.parts = partsOf(bodies);
+  of_kind.bodies = std::move(bodies);
+  return true;
 }
 
 void WorldScene::Impl::addRobots(const World& world, const Fleet& fleet) {
@@ -146,7 +165,7 @@ WorldScene::WorldScene(const World& world, const Fleet& fleet) : impl_(std::make
   impl_->all.push_back(std::make_shared<Ground>(world.bounds));
   impl_->all.push_back(std::make_shared<Sky>());
   impl_->bounds = world.bounds;
-  impl_->objects = impl_->partsOf(bodiesOf(world.objects));
+  for (auto& of_kind : impl_->kinds) impl_->set(of_kind, world.objects);
   const auto maps = impl_->partsOf(bodiesOf(world.maps));
   impl_->all.insert(impl_->all.end(), maps.begin(), maps.end());
   impl_->addRobots(world, fleet);
@@ -158,15 +177,18 @@ WorldScene::WorldScene(const World& world, const Fleet& fleet) : impl_(std::make
 WorldScene::~WorldScene() = default;
 
 void WorldScene::addTo(mrpt::opengl::COpenGLScene& scene) const {
-  for (const auto* parts : {&impl_->all, &impl_->objects}) {
+  for (const auto* parts : {&impl_->all, &impl_->kinds[0].parts, &impl_->kinds[1].parts}) {
     for (const auto& part : *parts) scene.insert(part);
   }
 }
 
 void WorldScene::setObjects(const std::vector<WorldObject>& objects, mrpt::opengl::COpenGLScene& scene) {
-  for (const auto& part : impl_->objects) scene.removeObject(part);
-  impl_->objects = impl_->partsOf(bodiesOf(objects));
-  for (const auto& part : impl_->objects) scene.insert(part);
+  for (auto& of_kind : impl_->kinds) {
+    const Impl::Parts before = of_kind.parts;
+    if (!impl_->set(of_kind, objects)) continue;
+    for (const auto& part : before) scene.removeObject(part);
+    for (const auto& part : of_kind.parts) scene.insert(part);
+  }
 }
 
 void WorldScene::place(std::span<const TPose2D> world_from_robot) {
