@@ -28,7 +28,7 @@ def main():
     time_s = float(sys.argv[1]) if len(sys.argv) > 1 else 300
     goals = {"east": 0, "west": 0}
     with robosim.Simulation(robosim.World.load("soccer"), seed=3) as simulation:
-        starts = {robot.name: tuple(pose) for robot, pose in zip(simulation.world.robots, simulation.poses.copy())}
+        starts = {robot.name: tuple(pose) for robot, pose in zip(simulation.robots, simulation.poses.copy())}
         if len(sys.argv) > 2:
             simulation.record(sys.argv[2])
         while simulation.time_s < time_s:
