@@ -79,7 +79,7 @@ struct WebServer::Impl {
       : options(the_options),
         events(std::move(the_events)),
         tls(options.tls ? makeContext(*options.tls) : nullptr),
-        acceptor({std::make_shared<const ConnectionListener>(options.listen, "--listen")},
+        acceptor({std::make_shared<const ConnectionListener>(options.listen, options.option)},
                  {.pending = "connections without a WebSocket",
                   .max_pending = kMaxRequests,
                   .take = [this](const AcceptedConnection& accepted) { return take(accepted); },

@@ -55,6 +55,7 @@ class WebServer {
 
   struct Options {
     std::string listen = "127.0.0.1:0";  ///< "host:port"
+    std::string option = "--listen";     ///< command-line option of the address, for the error text
     std::optional<TlsIdentity> tls;      ///< absent: without TLS
     std::vector<WebFile> files;
     /// WebSocket subprotocols, the preferred one first; pages that offer none of them are refused.
