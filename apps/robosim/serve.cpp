@@ -156,6 +156,29 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
   return options;
 }
 
+/// A host without a port gets Foxglove's. @throws ConfigError
+std::string foxgloveAddress(const std::string& address) {
+  const bool is_host = address.find(':') == std::string::npos &&
+                       address.find_first_not_of("0123456789") != std::string::npos;
+  return hostAndPort(is_host || address.ends_with(']') ? address + ":8765" : address);
+}
+
+/// @throws ConfigError for an address that is invalid, or exposed without protection
+std::optional<FoxgloveOptions> foxgloveOptions(const ServeArguments& arguments, const ServerOptions& server) {
+  if (arguments.foxglove.empty()) return std::nullopt;
+  FoxgloveOptions options;
+  options.is_realtime = server.pace == Pace::realtime;
+  options.server.listen = foxgloveAddress(arguments.foxglove);
+  options.server.tls = server.tls;
+  options.server.access = server.access;
+  options.server.origins = arguments.foxglove_origins;
+  options.server.log = server.log;
+  if (!arguments.listener.unprotected) {
+    checkExposure("--foxglove", options.server.listen, server.tls.has_value(), !server.access.isOpen());
+  }
+  return options;
+}
+
 }  // namespace
 
 void serveWorld(const ServeArguments& arguments) {
@@ -165,7 +188,8 @@ void serveWorld(const ServeArguments& arguments) {
   checkRunArguments(of_run);
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   const ServerOptions options = serverOptions(arguments);
-  WorldRun run({of_run, arguments.wait_for_robots, options.pace == Pace::realtime, arcosOptions(arguments)});
+  WorldRun run({of_run, arguments.wait_for_robots, options.pace == Pace::realtime, arcosOptions(arguments),
+                foxgloveOptions(arguments, options)});
   EnvironmentServer server(options, run.runInfo());
   logPorts(options, server.ports());
   Served how = Served::interrupted;
@@ -255,6 +279,18 @@ void addServe(CLI::App& program) {
            {"--wait-for-robots", "--listen", "--pace", "--step-deadline", "--on-lost-robot", "--check-results",
             "--paused", "--await-next-run", "--health", "--reflection"});
   addArcosOptions(*command, *a);
+  const CLI::Option* foxglove =
+      command
+          ->add_option("--foxglove", a->foxglove,
+                       "serve the topics of ROS 2 to Foxglove and Lichtblick, which may also drive robots, and pause the "
+                       "run (doc/ros2.md); usually 8765. Uses --tls-cert and --tokens")
+          ->type_name("[HOST:]PORT");
+  dependsOn(command
+                ->add_option("--foxglove-origin", a->foxglove_origins,
+                             "allow pages of another site, such as http://localhost:8080 of a Lichtblick of your own")
+                ->type_name("ORIGIN"),
+            foxglove);
+  setGroup(*command, kClientsGroup, {"--foxglove", "--foxglove-origin"});
   addListenerOptions(*command, a->listener);
   command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });
   command->callback([a, command] {

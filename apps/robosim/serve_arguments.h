@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "net/listen.h"
 #include "net/open_port.h"
@@ -29,6 +30,8 @@ struct ServeArguments {
   bool arcos_unprotected = false;
   bool arcos_all = false;     ///< also robots with a controller
   std::string arcos_factory;  ///< "MODEL" or "MODEL:NUMBER"; empty: a port for each robot
+  std::string foxglove;       ///< address for Foxglove; empty: none
+  std::vector<std::string> foxglove_origins;
 };
 
 /// Adds --arcos and the options that belong to it.

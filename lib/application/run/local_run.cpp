@@ -201,6 +201,11 @@ LocalRun::LocalRun(ForkOf original)
   }
 }
 
+void LocalRun::wrapControllers(
+    const std::function<std::unique_ptr<Controller>(LocalHardware&, std::unique_ptr<Controller>)>& wrap) {
+  for (const auto& local : local_robots_) local->controller = wrap(local->hardware, std::move(local->controller));
+}
+
 std::unique_ptr<LocalRun> LocalRun::fork(Elsewhere elsewhere) const {
   return std::unique_ptr<LocalRun>(new LocalRun(ForkOf{*this, elsewhere}));
 }

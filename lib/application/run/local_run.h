@@ -103,6 +103,11 @@ class LocalRun {
   /// @throws ControllerError, ObserverError for an exception of one's constructor
   LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
 
+  /// Replaces the controllers of this process by others, such as ones that use them.
+  /// @param wrap called with the robot's hardware, which outlives the controller
+  void wrapControllers(
+      const std::function<std::unique_ptr<Controller>(LocalHardware&, std::unique_ptr<Controller>)>& wrap);
+
   /// What fork() does with robots that LocalRun does not run the controllers of.
   enum class Elsewhere { refuse, keep };
   /// A run that continues from the present state, independently of this one.

@@ -157,6 +157,12 @@ WorldRun::WorldRun(WorldRunOptions options)
     : options_(std::move(options)), run_(load(readRunSource(options_.of_run), 1)) {
   arcos_ = makeArcosServer(*run_);
   logArcosPorts();
+  if (!options_.foxglove) return;
+  foxglove_ = std::make_unique<FoxgloveServing>(*options_.foxglove);
+  beginFoxglove();
+  const auto& server = options_.foxglove->server;
+  server.log("Foxglove: " + std::string(server.tls ? "wss" : "ws") + "://" +
+             withPort(server.listen, foxglove_->port()));
 }
 
 WorldRun::~WorldRun() = default;
@@ -192,11 +198,35 @@ void WorldRun::logArcosPorts() const {
   }
 }
 
-void WorldRun::poll() {
-  if (arcos_) arcos_->poll();
+void WorldRun::beginFoxglove() {
+  std::vector<std::string> why_not_driven;
+  for (std::size_t i = 0; i < run_->networked.size(); ++i) {
+    why_not_driven.emplace_back(run_->is_arcos[i]    ? "an ARCOS program drives this robot"
+                                : run_->networked[i] ? "another process drives this robot; use its remote port, and "
+                                                       "'robosim remote'"
+                                                     : "");
+  }
+  foxglove_->begin(run_->run, run_->run_info, why_not_driven);
 }
 
-void WorldRun::requestPictures(const std::vector<std::uint8_t>& robots) { run_->requestPictures(robots); }
+void WorldRun::poll(RunControl& control) {
+  if (arcos_) arcos_->poll();
+  if (!foxglove_) return;
+  requestPictures(pictured_);  // of clients that have subscribed since the last call
+  const RecordingStatus status = recording();
+  foxglove_->poll(control, {status.state != RecordingStatus::State::none, status.state == RecordingStatus::State::on,
+                            [this](bool on) { setRecording(on); }});
+}
+
+void WorldRun::requestPictures(const std::vector<std::uint8_t>& robots) {
+  pictured_ = robots;
+  std::vector<std::uint8_t> all = robots;
+  if (foxglove_ && run_->has_cameras) {
+    all.resize(environment().robotCount());
+    all = either(std::move(all), foxglove_->pictured());
+  }
+  run_->requestPictures(std::move(all));
+}
 
 void WorldRun::decide() {
   if (arcos_) arcos_->decide();
@@ -208,6 +238,7 @@ void WorldRun::stepped(std::size_t late) {
   run_->run.observe([&] { run_->outputs.observe(run_->run.environment()); });
   run_->reportRecording();
   if (arcos_) arcos_->stepped();
+  if (foxglove_) foxglove_->stepped();
 }
 
 bool WorldRun::isOver() const { return run_->run.isOver() || options_.of_run.timeIsUp(run_->run.environment().time()); }
@@ -258,7 +289,9 @@ void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
   auto& prepared = static_cast<Prepared&>(*next);
   run_->finish(EndedBy::control_panel);
   arcos_ = std::move(prepared.arcos);  // the previous one uses the run that is replaced
-  run_ = std::move(prepared.run);
+  const auto previous = std::exchange(run_, std::move(prepared.run));
+  pictured_.clear();
+  if (foxglove_) beginFoxglove();
   run_->start = std::chrono::steady_clock::now();
   ++number_;
   logArcosPorts();

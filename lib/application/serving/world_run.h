@@ -8,6 +8,7 @@
 #include "run/run_summary.h"
 #include "server/served_run.h"
 #include "serving/arcos_server.h"
+#include "serving/foxglove_serving.h"
 
 namespace robosim {
 
@@ -16,6 +17,7 @@ struct WorldRunOptions {
   bool wait_for_robots = false;       ///< for a process for every robot, including those with a controller
   bool is_realtime = false;           ///< late commands are counted, rather than awaited
   std::optional<ArcosOptions> arcos;  ///< serve robots of isForArcos() to ARCOS programs
+  std::optional<FoxgloveOptions> foxglove;
 };
 
 /// The runs of one served program: loading another world from a control panel starts the next run. Each has its own
@@ -29,7 +31,7 @@ class WorldRun final : public ServedRun {
 
   Environment& environment() override;
   std::shared_ptr<const RunInfo> runInfo() const override;  ///< keeps its run alive
-  void poll() override;
+  void poll(RunControl& control) override;
   void requestPictures(const std::vector<std::uint8_t>& robots) override;
   void decide() override;
   void stepped(std::size_t late) override;
@@ -62,10 +64,13 @@ class WorldRun final : public ServedRun {
   std::shared_ptr<OneRun> load(WorldSource source, int number) const;
   std::unique_ptr<ArcosServer> makeArcosServer(OneRun& run) const;
   void logArcosPorts() const;
+  void beginFoxglove();
 
   WorldRunOptions options_;
-  std::shared_ptr<OneRun> run_;         ///< shared with viewers
-  std::unique_ptr<ArcosServer> arcos_;  ///< of the current run; null without ARCOS
+  std::shared_ptr<OneRun> run_;                ///< shared with viewers
+  std::unique_ptr<ArcosServer> arcos_;         ///< of the current run; null without ARCOS
+  std::unique_ptr<FoxgloveServing> foxglove_;  ///< null without Foxglove; destroyed before the run
+  std::vector<std::uint8_t> pictured_;  ///< by robot: whether clients of the environment's server receive its pictures
   int number_ = 1;
   bool had_all_robots_ = true;
   bool is_trusted_ = true;

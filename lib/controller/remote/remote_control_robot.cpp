@@ -205,6 +205,11 @@ void RemoteControlRobot::logStop(const std::string& before) {
   }
 }
 
+bool RemoteControlRobot::isAutonomous() const {
+  const std::lock_guard lock(mutex_);
+  return state_.autonomous();
+}
+
 v1::RobotState RemoteControlRobot::state() const {
   const std::lock_guard lock(mutex_);
   v1::RobotState state = state_;

@@ -56,6 +56,7 @@ class RemoteControlRobot {
   ///@}
 
   v1::RobotState state() const;
+  bool isAutonomous() const;
 
  private:
   class ControllersView;

@@ -65,6 +65,11 @@ void Hub::sendOffer(Page& page) {
   if (services_text_) control(page, services_text_);
 }
 
+bool Hub::isSubscribed(std::size_t channel) const {
+  const std::lock_guard lock(mutex_);
+  return channel < subscriptions_.size() && !subscriptions_[channel].empty();
+}
+
 bool Hub::hasFresh() const {
   const std::lock_guard lock(mutex_);
   return has_fresh_;
@@ -255,7 +260,8 @@ void Hub::pageInvalid(PageId id, const std::string& why) {
   const std::lock_guard lock(mutex_);
   Page* const page = find(id);
   if (!page) return;
-  log_.write("invalid messages of Foxglove clients", "disconnected a Foxglove client at " + page->client.peer + ": " + why);
+  log_.write("invalid messages of Foxglove clients",
+             "disconnected a Foxglove client at " + page->client.peer + ": " + why);
   disconnect(*page, why);
 }
 
@@ -363,8 +369,7 @@ void Hub::handle(Page& page, const ServiceCall& message) {
     control(page, serviceFailureText(message.service, message.call, "there is no such service"));
     return;
   }
-  request(page,
-          ServiceRequest{page.client, service, message.call, message.encoding, std::string(message.payload)});
+  request(page, ServiceRequest{page.client, service, message.call, message.encoding, std::string(message.payload)});
 }
 
 void Hub::request(Page& page, Request request) {
@@ -392,8 +397,8 @@ void Hub::advertise(PageId id, const Advertise& message) {
       client = page->client;
     }
     // Only this thread adds and removes pages and their channels.
-    const std::string why = options_.publications ? options_.publications->advertised(client, channel)
-                                                  : "this server accepts no messages";
+    const std::string why =
+        options_.publications ? options_.publications->advertised(client, channel) : "this server accepts no messages";
     const std::lock_guard lock(mutex_);
     Page& page = pages_.at(id);
     page.advertised[channel.id] = {channel, why, !why.empty()};

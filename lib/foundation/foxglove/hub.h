@@ -74,14 +74,14 @@ class PublicationHandler {
 /// new has the present state, which clients receive that have subscribed since; the next round for all includes them.
 class Hub {
  public:
-  static constexpr std::size_t kMaxClientChannels = 256;    ///< of a client
-  static constexpr std::size_t kMaxRequests = 64;           ///< that wait for the source
+  static constexpr std::size_t kMaxClientChannels = 256;     ///< of a client
+  static constexpr std::size_t kMaxRequests = 64;            ///< that wait for the source
   static constexpr std::size_t kMaxClientMessage = 1 << 20;  ///< bytes
 
   struct Options {
     Access access;                                                            ///< rights by token
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line; thread-safe
-    std::function<void()> on_news = [] {};  ///< messages wait for clients; called in the source's thread
+    std::function<void()> on_news = [] {};       ///< messages wait for clients; called in the source's thread
     PublicationHandler* publications = nullptr;  ///< must outlive this; null: clients may not publish
   };
   explicit Hub(Options options) : options_(std::move(options)) {}
@@ -103,6 +103,8 @@ class Hub {
   bool wants(std::size_t channel, Audience audience) const {
     return channel < wanted_.size() && (audience == Audience::all ? wanted_[channel] != 0 : wanted_[channel] == kFresh);
   }
+  /// Whether a channel has any subscription.
+  bool isSubscribed(std::size_t channel) const;
   /// Whether any client has subscribed since the last round.
   bool hasFresh() const;
   /// @param latest_only whether the message makes those of the channel before it obsolete

@@ -14,7 +14,10 @@ inline std::optional<std::string> tokenOf(std::string_view target) {
   target.remove_prefix(query + 1);
   target = target.substr(0, target.find('#'));
   const auto digit = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
   };
   while (!target.empty()) {
     const auto end = target.find('&');
@@ -24,7 +27,8 @@ inline std::optional<std::string> tokenOf(std::string_view target) {
     part.remove_prefix(kName.size());
     std::string token;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      const bool is_encoded = part[i] == '%' && i + 2 < part.size() && digit(part[i + 1]) >= 0 && digit(part[i + 2]) >= 0;
+      const bool is_encoded =
+          part[i] == '%' && i + 2 < part.size() && digit(part[i + 1]) >= 0 && digit(part[i + 2]) >= 0;
       token += is_encoded ? static_cast<char>(digit(part[i + 1]) * 16 + digit(part[i + 2])) : part[i];
       if (is_encoded) i += 2;
     }

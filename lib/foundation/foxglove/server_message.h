@@ -10,9 +10,9 @@
 namespace robosim::foxglove {
 
 /// @file
-/// Messages of a server to a client, of Foxglove's WebSocket protocol: texts are JSON objects with a member `op`, binary
-/// messages begin with an opcode, numbers in little-endian order. Source: foxglove/ws-protocol, docs/spec.md (v1);
-/// foxglove/foxglove-sdk, rust/foxglove/src/websocket/ws_protocol.
+/// Messages of a server to a client, of Foxglove's WebSocket protocol: texts are JSON objects with a member `op`,
+/// binary messages begin with an opcode, numbers in little-endian order. Source: foxglove/ws-protocol, docs/spec.md
+/// (v1); foxglove/foxglove-sdk, rust/foxglove/src/websocket/ws_protocol.
 
 /// Subprotocols, the preferred one first. Their messages are the same.
 inline constexpr const char* kProtocols[] = {"foxglove.sdk.v1", "foxglove.websocket.v1"};

@@ -39,21 +39,19 @@ McapRecording::McapRecording(const std::filesystem::path& file, std::span<const 
   writer_.addMetadata({"rosbag2", {{"serialized_metadata", ""}}});
   rawlog_ = channelOf({kRawlogTopic, &ros::typeOf<ros::UInt8MultiArray>(), TopicDelivery::steady});
   clock_ = channelOf({"/clock", &ros::typeOf<ros::Clock>(), TopicDelivery::steady});
-  ros::TFMessage mounts;
+  bool has_mounts = false;
   try {
     for (const auto& robot : robots) {
       const RobotTopics& topics = topics_.emplace_back(robot);
       auto& channels = channels_of_robot_.emplace_back();
       for (const auto& topic : topics.topics()) channels.push_back(channelOf(topic));
-      mounts.transforms.insert(mounts.transforms.end(), topics.mounts().begin(), topics.mounts().end());
+      has_mounts = has_mounts || !topics.mounts().empty();
     }
   } catch (const std::length_error& error) {
     throw ConfigError(file.string() + ": has a topic for each sensor of each robot, and " + error.what() +
                       "; record a .rawlog, or fewer robots");
   }
-  if (mounts.transforms.empty()) return;
-  for (auto& mount : mounts.transforms) mount.header.stamp = timeOf(start_ns);
-  write(topicMessage("/tf_static", TopicDelivery::latched, start_ns, mounts));
+  if (has_mounts) write(staticTransforms(topics_, start_ns));
 }
 
 std::uint16_t McapRecording::channelOf(const Topic& topic) {

@@ -18,13 +18,14 @@ void expectHashes(const std::vector<std::string>& published) {
 // The hashes that ROS 2 prints (ros2 topic info -v). They depend on the name, the type and the order of every field at
 // any depth.
 TEST(MessageType, HasThePublishedHashOfEachMessage) {
-  expectHashes<String, Header, Time, Clock, Twist, TransformStamped, Pose, PoseWithCovariance, Odometry, OccupancyGrid,
+  expectHashes<String, Header, Time, Clock, Twist, TwistStamped, TransformStamped, Pose, PoseWithCovariance, Odometry, OccupancyGrid,
                TFMessage, LaserScan, Range, BatteryState, CompressedImage, CameraInfo, Temperature, PointCloud2, Marker,
                MarkerArray>({"df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18",
                              "f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01",
                              "b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197",
                              "692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564",
                              "9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a",
+                             "5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64",
                              "0a241f87d04668d94099cbb5ba11691d5ad32c2f29682e4eb5653424bd275206",
                              "d501954e9476cea2996984e812054b68026ae0bfae789d9a10b23daf35cc90fa",
                              "9a7c0fd234b7f45c6098745ecccd773ca1085670e64107135397aee31c02e1bb",

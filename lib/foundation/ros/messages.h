@@ -183,6 +183,17 @@ struct Twist {
   bool operator==(const Twist&) const = default;
 };
 
+struct TwistStamped {
+  Header header;
+  Twist twist;
+  static constexpr const char* kType = "geometry_msgs/msg/TwistStamped";
+  static void describe(auto& self, auto&& visit) {
+    visit("header", self.header);
+    visit("twist", self.twist);
+  }
+  bool operator==(const TwistStamped&) const = default;
+};
+
 struct TwistWithCovariance {
   Twist twist;
   std::array<double, 36> covariance{};

@@ -90,6 +90,15 @@ ros::CameraInfo infoOf(const CameraInfo& camera) {
 
 ros::Pose poseOf(const TPose2D& pose) { return {{pose.x, pose.y, 0}, rotationOf(pose.phi, 0, 0)}; }
 
+TopicMessage staticTransforms(std::span<const RobotTopics> robots, std::uint64_t time_ns) {
+  ros::TFMessage message;
+  for (const auto& robot : robots) {
+    message.transforms.insert(message.transforms.end(), robot.mounts().begin(), robot.mounts().end());
+  }
+  for (auto& mount : message.transforms) mount.header.stamp = timeOf(time_ns);
+  return topicMessage("/tf_static", TopicDelivery::latched, time_ns, message);
+}
+
 RobotTopics::RobotTopics(const RobotInfo& robot)
     : name_(topicNamePart(robot.name)),
       base_frame_(name_ + "/base_link"),
@@ -207,6 +216,7 @@ struct RobotTopics::Encoder {
 
   template <ros::Message M>
   void put(std::size_t topic, const M& message) {
+    if (!sink.wants(topic)) return;
     ros::encode(message, sink.beginMessage(topic));
     sink.endMessage();
   }
@@ -285,8 +295,9 @@ struct RobotTopics::Encoder {
     transforms.push_back(transformOf(robot.odom_frame_, robot.base_frame_, {pose.x, pose.y, 0, pose.phi, 0, 0}, stamp));
   }
   void operator()(const Image& image) {
-    const ros::CompressedImage compressed{header(made->frame), "jpeg", {image.jpeg.begin(), image.jpeg.end()}};
-    put(made->topic, compressed);
+    if (sink.wants(made->topic)) {
+      put(made->topic, ros::CompressedImage{header(made->frame), "jpeg", {image.jpeg.begin(), image.jpeg.end()}});
+    }
     made->camera.header.stamp = stamp;
     put(made->topic + 1, made->camera);
   }

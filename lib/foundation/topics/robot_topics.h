@@ -20,6 +20,8 @@ namespace robosim {
 class TopicSink {
  public:
   virtual ~TopicSink() = default;
+  /// Whether messages of a topic are taken; others are not made.
+  virtual bool wants(std::size_t /*topic*/) const { return true; }
   /// @param topic index in RobotTopics::topics() @returns the bytes to which the message is appended
   virtual std::vector<std::uint8_t>& beginMessage(std::size_t topic) = 0;
   /// The message is complete.
@@ -68,6 +70,9 @@ class RobotTopics {
   std::vector<SensorMessages> of_sensor_;
   std::size_t transform_ = 0, truth_ = 0, command_ = 0, inbox_ = 0;
 };
+
+/// The message of /tf_static: poses of the sensors of robots. Without transforms if there are none.
+TopicMessage staticTransforms(std::span<const RobotTopics> robots, std::uint64_t time_ns);
 
 /// The pose of a body in plan.
 ros::Pose poseOf(const mrpt::math::TPose2D& pose);

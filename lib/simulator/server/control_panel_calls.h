@@ -111,8 +111,7 @@ class ControlPanelSession::LoadCall final : public StreamSession<v1::LoadRequest
     v1::RunStatus status;
     operations.describe(status);
     world_ = status.world();
-    operations.run_control.is_paused = true;
-    operations.run_control.steps_left = 0;
+    operations.run_control.pause(true);
   }
   void answer(const v1::RunStatus& reply) override {
     draft() = reply;

@@ -15,8 +15,6 @@
 namespace robosim {
 namespace {
 
-/// Upper limit of a step request; rejects typing errors.
-constexpr std::uint64_t kStepsMax = 1'000'000'000;
 /// Maximum size of the text of a change.
 constexpr std::size_t kChangeBytesMax = 64 * 1024;
 
@@ -25,18 +23,8 @@ int indexOf(const char* method) {
   return v1::RunStatus::descriptor()->file()->FindServiceByName("ControlPanel")->FindMethodByName(method)->index();
 }
 
-void checkSteps(std::uint64_t steps) {
-  if (steps >= 1 && steps <= kStepsMax) return;
-  throw WireError(std::to_string(steps) + " steps; must lie in [1, " + std::to_string(kStepsMax) + "]");
-}
-
-void checkSpeed(double speed, Pace pace) {
-  if (speed == 0 && pace == Pace::realtime) {
-    throw WireError("with the pace realtime the speed cannot be unlimited; specify a speed, 1 for real time");
-  }
-  if (speed == 0 || (speed >= 0.001 && speed <= 1e6)) return;
-  throw WireError("a speed of " + std::to_string(speed) +
-                  "; must lie in [0.001, 1000000], or be 0 for unlimited speed");
+void check(const std::string& fault) {
+  if (!fault.empty()) throw WireError(fault);
 }
 
 void setRecording(RunOperations& operations, bool on) {
@@ -85,10 +73,7 @@ void ControlPanelSession::open(const CompletionQueueServer::ServiceQueues& queue
       queues, [this] { return std::make_shared<Watcher>(*this); },
       [this, watch = indexOf("Watch")](auto... arguments) { RequestAsyncBidiStreaming(watch, arguments...); });
   const auto pause = [](bool is_paused) {
-    return [is_paused](RunOperations& operations, const auto&, Call&) {
-      operations.run_control.is_paused = is_paused;
-      operations.run_control.steps_left = 0;
-    };
+    return [is_paused](RunOperations& operations, const auto&, Call&) { operations.run_control.pause(is_paused); };
   };
   serve<v1::StartRequest>(queues, {"start", Right::operate, &Self::RequestStart, pause(false)});
   serve<v1::PauseRequest>(queues, {"pause", Right::operate, &Self::RequestPause, pause(true)});
@@ -99,16 +84,15 @@ void ControlPanelSession::open(const CompletionQueueServer::ServiceQueues& queue
       queues, {nullptr, Right::look, &Self::RequestGetStatus, [](RunOperations&, const auto&, Call&) {}});
   serve<v1::StepRequest>(queues, {"step", Right::operate, &Self::RequestStep,
                                   [](RunOperations& operations, const v1::StepRequest& request, Call& call) {
-                                    checkSteps(request.steps());
-                                    operations.run_control.is_paused = true;
-                                    operations.run_control.steps_left += request.steps();
+                                    check(stepsFault(request.steps()));
+                                    operations.run_control.step(request.steps());
                                     v1::RunStatus status;
                                     operations.describe(status);
                                     call.until_step = status.step() + operations.run_control.steps_left;
                                   }});
   serve<v1::SetSpeedRequest>(queues, {"speed", Right::operate, &Self::RequestSetSpeed,
                                       [this](RunOperations& operations, const v1::SetSpeedRequest& request, Call&) {
-                                        checkSpeed(request.speed(), serving_.pace);
+                                        check(speedFault(request.speed(), serving_.pace == Pace::realtime));
                                         operations.run_control.speed = request.speed();
                                       }});
   serve<v1::SetRecordingRequest>(queues, {"record", Right::operate, &Self::RequestSetRecording,

@@ -8,6 +8,7 @@
 #include "net/completion_queue_server.h"
 #include "robosim/v1/control_panel.grpc.pb.h"
 #include "robots/world_source.h"
+#include "server/run_control.h"
 #include "server/served_run.h"
 #include "server/serving_state.h"
 #include "world/intervention.h"
@@ -27,17 +28,6 @@ using ControlPanelService = v1::ControlPanel::WithRawMethod_Load<v1::ControlPane
         v1::ControlPanel::WithAsyncMethod_Pause<v1::ControlPanel::WithAsyncMethod_Step<
             v1::ControlPanel::WithAsyncMethod_SetSpeed<v1::ControlPanel::WithAsyncMethod_Stop<
                 v1::ControlPanel::WithAsyncMethod_GetStatus<WatchAsStream>>>>>>>>>;
-
-/// State of the run as set by control panels: paused or running, speed, and stop. Used only by the thread that steps
-/// the environment.
-struct RunControl {
-  bool is_paused = false;
-  std::uint64_t steps_left = 0;  ///< steps to take while paused
-  double speed = 0;              ///< simulated seconds per second; 0: unlimited
-  bool stop = false;
-
-  bool mayStep() const { return !is_paused || steps_left > 0; }
-};
 
 /// Operations on the run that control panels can request.
 struct RunOperations {

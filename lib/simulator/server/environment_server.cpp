@@ -215,10 +215,11 @@ struct EnvironmentServer::Impl {
     return is_time();
   }
 
-  /// Executes the requests of control panels.
-  void executePanelRequests() {
+  /// Executes the requests of control panels, and of clients that the run itself serves.
+  void executeRequests(ServedRun& run) {
     const double speed = run_control.speed;
     panels.execute(operations);
+    run.poll(run_control);
     if (run_control.speed != speed) due = serving.now();
   }
 
@@ -263,10 +264,9 @@ struct EnvironmentServer::Impl {
     while (awaits_next_run || !run.isOver()) {
       serving.wake_requested = false;
       serving.checkSessions();
-      executePanelRequests();
+      executeRequests(run);
       if (run_control.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
-      run.poll();
       admit(run);
       if (run.isOver()) {
         endOnce(run);

@@ -9,6 +9,7 @@
 #include "environment/environment.h"
 #include "environment/run_report.h"
 #include "robots/world_source.h"
+#include "server/run_control.h"
 #include "server/run_info.h"
 
 namespace robosim {
@@ -39,8 +40,8 @@ class ServedRun {
   /// The part of the run that is served to clients.
   virtual std::shared_ptr<const RunInfo> runInfo() const = 0;
   /// Called at least every ServingState::kPollInterval, between steps, also while the run is paused: serves clients
-  /// that are not the server's.
-  virtual void poll() {}
+  /// that are not the server's, which may change how the run proceeds.
+  virtual void poll(RunControl& /*control*/) {}
   /// Requests pictures of robots for clients, in addition to those that the run itself needs: flags by robot, until the
   /// next call. Those of the present step are taken if they have not been. No effect by default.
   virtual void requestPictures(const std::vector<std::uint8_t>& /*robots*/) {}

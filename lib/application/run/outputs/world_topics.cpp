@@ -104,9 +104,17 @@ void WorldTopics::begin(McapRecording& recording, const RunNote& note, const Cha
                           {"controllers", textOf(note.controllers)}}});
   if (!note.world.text.empty()) recording.attach({time_ns, 0, file, "application/xml", note.world.text});
   recording.write(map(time_ns));
-  recording.write(markers(objects.orThose(model_->world.objects), nullptr, time_ns));
+  recording.write(this->objects(objects, time_ns));
+  startFrom(objects, "");
+}
+
+void WorldTopics::startFrom(const ChangedObjects& objects, const std::string& winner) {
   objects_ = objects;
-  winner_.clear();
+  winner_ = winner;
+}
+
+TopicMessage WorldTopics::objects(const ChangedObjects& objects, std::uint64_t time_ns) const {
+  return markers(objects.orThose(model_->world.objects), nullptr, time_ns);
 }
 
 std::vector<TopicMessage> WorldTopics::of(const ChangedObjects& objects, const std::vector<std::string>& notes,

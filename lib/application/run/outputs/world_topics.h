@@ -19,6 +19,13 @@ class WorldTopics {
   /// Writes the map and the objects as they are, and attaches the world file.
   /// @param note of the run, without outcome
   void begin(McapRecording& recording, const RunNote& note, const ChangedObjects& objects, std::uint64_t time_ns);
+  /// The following steps are compared with these objects and this winner, as after begin().
+  void startFrom(const ChangedObjects& objects, const std::string& winner);
+  /// @name The state for a reader that comes later
+  ///@{
+  TopicMessage map(std::uint64_t time_ns) const;
+  TopicMessage objects(const ChangedObjects& objects, std::uint64_t time_ns) const;
+  ///@}
   /// Messages of a step. @param notes interventions before it @param winner name of the robot that has won so far
   std::vector<TopicMessage> of(const ChangedObjects& objects, const std::vector<std::string>& notes,
                                const std::string& winner, std::uint64_t time_ns);
@@ -26,7 +33,6 @@ class WorldTopics {
   static void end(McapRecording& recording, const RunNote& note);
 
  private:
-  TopicMessage map(std::uint64_t time_ns) const;
   TopicMessage markers(const std::vector<WorldObject>& objects, const std::vector<std::uint32_t>* moved,
                        std::uint64_t time_ns) const;
 

@@ -1,0 +1,175 @@
+#include "serving/foxglove_serving.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/error_list.h"
+#include "ros/cdr.h"
+
+namespace robosim {
+namespace {
+
+using foxglove::StatusLevel;
+
+constexpr const char* kPaused = "/run/paused";
+constexpr const char* kSpeed = "/run/speed";
+constexpr const char* kStepsLeft = "/run/steps_left";
+constexpr const char* kRecording = "/run/recording";
+constexpr const char* kWorld = "/run/world";
+constexpr const char* kSeed = "/run/seed";
+
+constexpr const char* kTrigger = "std_srvs/srv/Trigger";
+constexpr const char* kTriggerResponse = "bool success\nstring message\n";
+struct RunService {
+  const char* name;
+  const char* action;  ///< of the audit log, as of a control panel
+  void (*execute)(RunControl&);
+};
+constexpr std::array kRunServices{
+    RunService{"/run/start", "start", [](RunControl& control) { control.pause(false); }},
+    RunService{"/run/pause", "pause", [](RunControl& control) { control.pause(true); }},
+    RunService{"/run/step", "step 1", [](RunControl& control) { control.step(1); }},
+};
+
+constexpr const char* kMayNotOperate = "the token does not permit it; use one of the role operator";
+
+std::vector<foxglove::Service> services() {
+  std::vector<foxglove::Service> all;
+  for (const auto& service : kRunServices) all.push_back({service.name, kTrigger, "", kTriggerResponse});
+  return all;
+}
+
+}  // namespace
+
+FoxgloveServing::FoxgloveServing(const FoxgloveOptions& options)
+    : options_(options), drivers_(options.server.access, options.server.log), server_([&] {
+        foxglove::Server::Options server = options.server;
+        server.publications = &drivers_;
+        return server;
+      }()) {}
+
+FoxgloveServing::~FoxgloveServing() = default;
+
+void FoxgloveServing::begin(LocalRun& run, const RunInfo& info, const std::vector<std::string>& why_not_driven) {
+  drivers_.begin(run, why_not_driven);
+  feed_.emplace(server_.hub(), run.environment());
+  world_ = run.environment().world().name;
+  seed_ = info.seed;
+  server_.hub().offer({{"RoboSim: " + world_,
+                        {"time", "clientPublish", "parameters", "parametersSubscribe", "services"},
+                        {"cdr", "json"},
+                        info.run_id},
+                       feed_->channels(),
+                       services()});
+}
+
+void FoxgloveServing::poll(RunControl& control, const FoxgloveRecording& recording) {
+  foxglove::Hub& hub = server_.hub();
+  hub.setParameters(parameters(control, recording));
+  for (const auto& request : hub.takeRequests()) {
+    if (const auto* const of_parameters = std::get_if<foxglove::ParameterChange>(&request)) {
+      change(*of_parameters, control, recording);
+    } else {
+      call(std::get<foxglove::ServiceRequest>(request), control);
+    }
+  }
+  feed_->poll();
+}
+
+std::vector<foxglove::Parameter> FoxgloveServing::parameters(const RunControl& control,
+                                                   const FoxgloveRecording& recording) const {
+  std::vector<foxglove::Parameter> all{{kPaused, control.is_paused, ""},
+                             {kSpeed, control.speed, "float64"},
+                             {kStepsLeft, control.steps_left, ""},
+                             {kWorld, world_, ""},
+                             {kSeed, seed_, ""}};
+  if (recording.is_possible) all.push_back({kRecording, recording.is_on, ""});
+  for (const auto& [parameter, is_autonomous] : drivers_.autonomous()) all.push_back({parameter, is_autonomous, ""});
+  return all;
+}
+
+void FoxgloveServing::change(const foxglove::ParameterChange& change, RunControl& control,
+                             const FoxgloveRecording& recording) {
+  foxglove::Hub& hub = server_.hub();
+  for (const auto& parameter : change.parameters) {
+    const std::string why = setParameter(change.client, parameter, control, recording);
+    if (!why.empty()) hub.sendStatus(change.client.id, StatusLevel::error, parameter.name + ": " + why);
+  }
+  hub.setParameters(parameters(control, recording));
+  hub.answer(change);
+}
+
+/// @return why not; empty when it is set
+std::string FoxgloveServing::setParameter(const foxglove::Client& client, const foxglove::Parameter& parameter,
+                                          RunControl& control, const FoxgloveRecording& recording) {
+  foxglove::Hub& hub = server_.hub();
+  const auto& [name, value, type] = parameter;
+  if (drivers_.hasParameter(name)) {
+    if (!value.is_boolean()) return "must be true or false";
+    const std::string why = drivers_.setAutonomous(client, name, value.get<bool>());
+    if (why.empty()) hub.audit(client, name + (value.get<bool>() ? " on" : " off"));
+    return why;
+  }
+  if (name == kWorld || name == kSeed) return "cannot be changed during a run";
+  const bool is_known =
+      name == kPaused || name == kSpeed || name == kStepsLeft || (name == kRecording && recording.is_possible);
+  if (!is_known) return "there is no such parameter";
+  if (!hub.may(client, Right::operate)) return kMayNotOperate;
+  if (name == kSpeed) {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) return "must be a number";
+    const auto speed = value.get<double>();
+    if (std::string fault = speedFault(speed, options_.is_realtime); !fault.empty()) return fault;
+    control.speed = speed;
+    hub.audit(client, "speed " + (speed == 0 ? "max" : std::to_string(speed)));
+  } else if (name == kStepsLeft) {
+    if (!value.is_number_unsigned()) return "must be a whole number";
+    const auto steps = value.get<std::uint64_t>();
+    if (std::string fault = steps == 0 ? "" : stepsFault(steps); !fault.empty()) return fault;
+    control.pause(true);
+    control.step(steps);
+    hub.audit(client, "step " + std::to_string(steps));
+  } else {
+    if (!value.is_boolean()) return "must be true or false";
+    const bool on = value.get<bool>();
+    if (name == kPaused) {
+      control.pause(on);
+      hub.audit(client, on ? "pause" : "start");
+    } else {
+      try {
+        recording.set(on);
+      } catch (const ConfigError& error) {
+        return error.what();
+      }
+      hub.audit(client, on ? "record on" : "record off");
+    }
+  }
+  return "";
+}
+
+void FoxgloveServing::call(const foxglove::ServiceRequest& request, RunControl& control) {
+  foxglove::Hub& hub = server_.hub();
+  if (!hub.may(request.client, Right::operate)) {
+    hub.refuse(request, kMayNotOperate);
+    return;
+  }
+  if (request.encoding != "cdr" && request.encoding != "json") {
+    hub.refuse(request, "the encoding must be cdr or json");
+    return;
+  }
+  const RunService& service = kRunServices.at(request.service);
+  service.execute(control);
+  hub.audit(request.client, service.action);
+  std::vector<std::uint8_t> response;
+  if (request.encoding == "cdr") {
+    ros::CdrWriter writer(response);
+    writer.write(true);
+    writer.write(std::string());
+  } else {
+    const std::string text = R"({"success":true,"message":""})";
+    response.assign(text.begin(), text.end());
+  }
+  hub.answer(request, response);
+}
+
+}  // namespace robosim

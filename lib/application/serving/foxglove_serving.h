@@ -1,0 +1,65 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "foxglove/server.h"
+#include "run/local_run.h"
+#include "server/run_control.h"
+#include "server/run_info.h"
+#include "serving/foxglove_drivers.h"
+#include "serving/foxglove_feed.h"
+
+namespace robosim {
+
+struct FoxgloveOptions {
+  foxglove::Server::Options server;
+  bool is_realtime = false;  ///< the run keeps real time: its speed has a limit
+};
+
+/// Recording of a run, as its clients see and change it.
+struct FoxgloveRecording {
+  bool is_possible = false, is_on = false;
+  /// Starts or stops it. @throws ConfigError when that is not possible
+  std::function<void(bool)> set = [](bool) {};
+};
+
+/// Serves the runs of a program to Foxglove and other clients of its protocol: topics (FoxgloveFeed), driving
+/// (FoxgloveDrivers), parameters and services. All functions are called by the thread that steps the environment; none
+/// of them waits.
+class FoxgloveServing {
+ public:
+  /// Opens the port. @throws std::runtime_error as foxglove::Server
+  explicit FoxgloveServing(const FoxgloveOptions& options);
+  ~FoxgloveServing();
+
+  int port() const { return server_.port(); }
+  /// Serves a run instead of the one before, which must still exist. @param run must outlive its time here
+  /// @param info of the run @param why_not_driven by robot: why it cannot be driven; empty if this process has its
+  /// controller
+  void begin(LocalRun& run, const RunInfo& info, const std::vector<std::string>& why_not_driven);
+  /// Handles requests, and sends the state to new clients. Between steps, at least every ServingState::kPollInterval.
+  void poll(RunControl& control, const FoxgloveRecording& recording);
+  /// Sends the messages of a step.
+  void stepped() { feed_->stepped(); }
+  /// As FoxgloveFeed
+  std::vector<std::uint8_t> pictured() const { return feed_->pictured(); }
+
+ private:
+  struct Run;
+  std::vector<foxglove::Parameter> parameters(const RunControl& control, const FoxgloveRecording& recording) const;
+  void change(const foxglove::ParameterChange& change, RunControl& control, const FoxgloveRecording& recording);
+  std::string setParameter(const foxglove::Client& client, const foxglove::Parameter& parameter, RunControl& control,
+                           const FoxgloveRecording& recording);
+  void call(const foxglove::ServiceRequest& request, RunControl& control);
+
+  FoxgloveOptions options_;
+  FoxgloveDrivers drivers_;
+  foxglove::Server server_;
+  std::optional<FoxgloveFeed> feed_;
+  std::string world_;
+  std::uint64_t seed_ = 0;
+};
+
+}  // namespace robosim

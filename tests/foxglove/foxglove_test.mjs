@@ -1,0 +1,263 @@
+// RoboSim's server for Foxglove, judged by clients and decoders of others: @foxglove/ws-protocol, rosmsg2-serialization.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, afterEach, before, test } from 'node:test';
+
+import { parse } from '@foxglove/rosmsg';
+import { MessageWriter } from '@foxglove/rosmsg2-serialization';
+
+import { FOLDER, ROBOSIM } from '../browser/program.mjs';
+import { compareWithTable } from '../mcap/rawlog_table.mjs';
+import { Client, Served } from './client.mjs';
+
+const MAZE = 'worlds/small_maze.xml';
+const STEPS = 50;
+const SECOND = 1_000_000_000n;
+
+let folder;
+const inFolder = (name) => join(folder, name);
+const robosim = (...args) => execFileSync(ROBOSIM, args, { cwd: FOLDER, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+const clients = [];
+function connect(...args) {
+  clients.push(new Client(...args));
+  return clients.at(-1);
+}
+
+before(() => { folder = mkdtempSync(join(tmpdir(), 'robosim-foxglove-')); });
+afterEach(() => clients.splice(0).forEach((client) => client.close()));
+after(() => rmSync(folder, { recursive: true }));
+
+// Ends a served run at the present step: its summary.
+async function summaryOf(served) {
+  served.signal('SIGINT');
+  await served.ended();
+  assert.equal(served.code, 0, served.error);
+  return JSON.parse(served.output);
+}
+
+const twistWriter = new MessageWriter(parse(`Vector3 linear
+Vector3 angular
+================================================================================
+MSG: geometry_msgs/Vector3
+float64 x
+float64 y
+float64 z
+`, { ros2: true }));
+const vector = (x, y, z) => ({ x, y, z });
+const twist = (speed, turn) => twistWriter.writeMessage({ linear: vector(speed, 0, 0), angular: vector(0, 0, turn) });
+
+// Publishes a command ten times per second. Returns what ends it.
+function drive(client, robot, speed, turn, { schemaName = 'geometry_msgs/msg/Twist', encoding = 'cdr', data = twist(speed, turn) } = {}) {
+  const id = client.client.advertise({ topic: `/${robot}/cmd_vel`, encoding, schemaName });
+  const send = () => client.client.sendMessage(id, data);
+  send();
+  const timer = setInterval(send, 100);
+  return {
+    stop: () => clearInterval(timer),
+    leave: () => { clearInterval(timer); client.client.unadvertise(id); },
+  };
+}
+
+test('all topics have the numbers of the rawlog of the same run, whose digest is that without clients', async () => {
+  const served = new Served(MAZE, '--controller', 'wander', '--seed', '7', '--paused', '--speed', '5', '--json',
+                            '--record', inFolder('run.rawlog'));
+  const client = connect(await served.url());
+  const once = ['/clock', '/interventions', '/events'];
+  const isIdle = (topic) => once.includes(topic) || topic.endsWith('/messages') || topic === '/tf';
+  await client.until(() => client.channels.size > 10 &&
+    [...client.channels.keys()].every((topic) => isIdle(topic) || client.of(topic).length > 0));
+  client.set('/run/steps_left', STEPS);
+  await client.until(() => client.of('/clock').length === STEPS && client.of('/tf').length >= STEPS);
+  await client.until(() => client.times.at(-1) === 5n * SECOND);
+  const { digest } = await summaryOf(served);
+  robosim('export', inFolder('run.rawlog'), inFolder('run.csv'));
+  const compared = compareWithTable(client.topics, inFolder('run.csv'));
+  assert.ok(compared > 5000, `${compared} numbers`);
+  assert.deepEqual(client.of('/clock')[14].message.clock, { sec: 1, nanosec: 500000000 });
+  const map = client.last('/map');
+  assert.equal(map.data.length, map.info.width * map.info.height);
+  assert.ok(client.last('/objects').markers.length > 1);
+  assert.ok(client.last('/tf_static').transforms.length > 1);
+  assert.deepEqual(client.statuses, []);
+  assert.match(client.info.name, /^RoboSim: /);
+  const without = JSON.parse(robosim('run', MAZE, '--controller', 'wander', '--seed', '7', '--time', '5', '--json'));
+  assert.equal(digest, without.digest);
+});
+
+test('a client that does not read loses messages of its own, and does not delay the run', async () => {
+  const served = new Served(MAZE, '--controller', 'wander', '--seed', '7', '--paused', '--json');
+  const url = await served.url();
+  const reading = connect(url, { subscribes: (topic) => topic === '/clock' });
+  const slow = connect(url);
+  await slow.until(() => slow.of('/map').length > 0);
+  slow.socket.pause();
+  reading.set('/run/steps_left', 6000);
+  await reading.until(() => reading.times.at(-1) === 600n * SECOND);
+  slow.socket.resume();
+  await slow.until(() => slow.statuses.some(({ level, message }) => level === 1 && message.includes('slower than the run')));
+  await slow.until(() => slow.times.at(-1) === 600n * SECOND && slow.of('/clock').at(-1)?.time === 600n * SECOND);
+  assert.ok(slow.of('/clock').length < 6000);
+  const { digest } = await summaryOf(served);
+  const without = JSON.parse(robosim('run', MAZE, '--controller', 'wander', '--seed', '7', '--time', '600', '--json'));
+  assert.equal(digest, without.digest);
+});
+
+for (const protocol of ['foxglove.websocket.v1', 'foxglove.sdk.v1']) {
+  test(`parameters and services pause the run and take steps: ${protocol}`, async () => {
+    const served = new Served(MAZE, '--controller', 'still', '--speed', '2');
+    const client = connect(await served.url(), { protocols: [protocol], subscribes: (topic) => topic === '/clock' });
+    await client.until(() => client.of('/clock').length > 2);
+    assert.equal(client.socket.protocol, protocol);
+    client.client.subscribeParameterUpdates(['/run/paused', '/run/speed']);
+    client.set('/run/paused', true);
+    await client.until(() => client.parameters.get('/run/paused') === true);
+    const count = client.of('/clock').length;
+    const call = (name, encoding, data) => client.client.sendServiceCallRequest(
+      { serviceId: client.services.get(name).id, callId: 7, encoding, data: new DataView(new Uint8Array(data).buffer) });
+    call('/run/step', 'cdr', [0, 1, 0, 0, 0]);
+    await client.until(() => client.of('/clock').length === count + 1 && client.answers.length === 1);
+    const { data, callId } = client.answers[0];
+    assert.equal(callId, 7);
+    assert.equal(data.getUint8(4), 1);  // success, after the header
+    client.set('/run/speed', 'fast');
+    await client.until(() => client.statuses.some(({ message }) => message === '/run/speed: must be a number'));
+    client.set('/run/speed', 3);
+    await client.until(() => client.parameters.get('/run/speed') === 3);
+    assert.equal(client.of('/clock').length, count + 1);
+    call('/run/start', 'json', [123, 125]);
+    await client.until(() => client.parameters.get('/run/paused') === false && client.of('/clock').length > count + 2);
+    client.client.getParameters([], 'all');
+    await client.until(() => client.parameters.has('/run/world'));
+    assert.equal(client.parameters.get('/run/seed'), 1);
+  });
+}
+
+const robotOf = (client) => [...client.channels.keys()].find((topic) => topic.endsWith('/odom')).split('/')[1];
+const isDriver = (client, robot) => client.last(`/${robot}/odom`)?.twist.twist.linear.x > 0.1;
+const stands = (client, robot) => client.last(`/${robot}/odom`)?.twist.twist.linear.x === 0;
+
+test('a client drives a robot, which stops without its messages, and another takes over', async () => {
+  const served = new Served(MAZE, '--controller', 'still', '--speed', '1', '--step', '0.05');
+  const url = await served.url();
+  const driver = connect(url);
+  await driver.until(() => driver.of('/clock').length > 0);
+  const robot = robotOf(driver);
+  const start = driver.last(`/${robot}/ground_truth`).pose.pose.position;
+  const driving = drive(driver, robot, 0.3, 0);
+  await driver.until(() => isDriver(driver, robot));
+  assert.equal(driver.last(`/${robot}/cmd_vel`).linear.x, 0.3);
+  const other = connect(url);
+  await other.until(() => other.channels.size > 0);
+  const intruding = drive(other, robot, -0.3, 0);
+  await other.until(() => other.statuses.some(({ message }) => message.includes('is driven by another client')));
+  intruding.leave();
+  driving.stop();  // the driver's channel stays: only its messages end
+  await driver.until(() => stands(driver, robot));
+  await served.says(/stops: no message from .* for 0.5 s/);
+  const at = driver.last(`/${robot}/ground_truth`).pose.pose.position;
+  assert.ok(Math.hypot(at.x - start.x, at.y - start.y) > 0.05);
+  const stamped = Buffer.concat([Buffer.from([0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0]), Buffer.alloc(7), twist(0.2, 0).slice(4)]);
+  const taking = drive(other, robot, 0, 0, { schemaName: 'geometry_msgs/TwistStamped', data: stamped });
+  await other.until(() => isDriver(other, robot));
+  assert.ok(Math.abs(other.last(`/${robot}/cmd_vel`).linear.x - 0.2) < 1e-9);
+  taking.leave();
+  await other.until(() => stands(other, robot));
+  await served.says(/stops: its driver has left/);
+  const third = connect(url);
+  await third.until(() => third.channels.size > 0);
+  const json = Buffer.from(JSON.stringify({ linear: { x: 0.25 }, angular: { z: 0 } }));
+  drive(third, robot, 0, 0, { encoding: 'json', data: json });
+  await third.until(() => isDriver(third, robot));
+  third.close();
+  await other.until(() => stands(other, robot));
+});
+
+test('the limits of the robot apply, and what is no command is refused', async () => {
+  const served = new Served(MAZE, '--controller', 'still', '--speed', '1');
+  const client = connect(await served.url());
+  await client.until(() => client.of('/clock').length > 0);
+  const robot = robotOf(client);
+  const driving = drive(client, robot, 1e6, 0);
+  await client.until(() => isDriver(client, robot));
+  assert.ok(client.last(`/${robot}/cmd_vel`).linear.x < 10);
+  driving.leave();
+  const refused = async (topic, schemaName, data, why) => {
+    const id = client.client.advertise({ topic, encoding: 'cdr', schemaName });
+    client.client.sendMessage(id, data);
+    await client.until(() => client.statuses.some(({ message }) => message.includes(why)));
+    client.client.unadvertise(id);
+  };
+  await refused('/nobody/cmd_vel', 'geometry_msgs/msg/Twist', twist(1, 0), 'no robot has this topic');
+  await refused(`/${robot}/cmd_vel`, 'std_msgs/msg/String', twist(1, 0), 'a message of the type std_msgs/msg/String');
+  await refused(`/${robot}/cmd_vel`, 'geometry_msgs/msg/Twist', twist(NaN, 0), 'speeds must be finite');
+  await refused(`/${robot}/cmd_vel`, 'geometry_msgs/msg/Twist', twist(1, 0).slice(0, 20), 'ends');
+});
+
+test('a robot that is driven returns to its controller by its parameter', async () => {
+  const served = new Served(MAZE, '--controller', 'wander', '--speed', '2');
+  const client = connect(await served.url());
+  await client.until(() => client.of('/clock').length > 0);
+  const robot = robotOf(client);
+  const autonomous = `/${robot}/autonomous`;
+  client.client.subscribeParameterUpdates([]);
+  const driving = drive(client, robot, 0, 0);
+  await client.until(() => client.parameters.get(autonomous) === false);
+  driving.leave();
+  await client.until(() => stands(client, robot));
+  client.set(autonomous, true);
+  await client.until(() => client.parameters.get(autonomous) === true);
+  await client.until(() => isDriver(client, robot));
+});
+
+test('a token decides what a client may do', async () => {
+  const tokens = { viewer: 'viewer-0123456789abcdef', operator: 'operator-0123456789abcdef' };
+  writeFileSync(inFolder('tokens'), `${tokens.viewer} viewer\n${tokens.operator} operator name=anna\n`, { mode: 0o600 });
+  const served = new Served(MAZE, '--controller', 'still', '--speed', '1', '--tokens', inFolder('tokens'));
+  const url = await served.url();
+  const stranger = connect(url);
+  await stranger.until(() => stranger.closed !== undefined);
+  assert.match(stranger.statuses[0].message, /add \?token=TOKEN to the address/);
+  assert.equal(stranger.channels.size, 0);
+  const viewer = connect(`${url}/?token=${tokens.viewer}`);
+  await viewer.until(() => viewer.of('/clock').length > 0);
+  viewer.set('/run/paused', true);
+  await viewer.until(() => viewer.statuses.some(({ message }) => message.startsWith('/run/paused: the token does not permit')));
+  drive(viewer, robotOf(viewer), 0.3, 0).stop();
+  await viewer.until(() => viewer.statuses.some(({ message }) => message.includes('which permits only to watch')));
+  const operator = connect(`${url}/?token=${tokens.operator}`);
+  await operator.until(() => operator.of('/clock').length > 0);
+  operator.set('/run/paused', true);
+  await operator.until(() => operator.parameters.get('/run/paused') === true);
+  await served.says(/audit: \S+ anna \(127.0.0.1\): pause/);
+});
+
+test('pages of other sites, and other protocols, are refused', async () => {
+  const served = new Served(MAZE, '--controller', 'still', '--speed', '1', '--foxglove-origin', 'http://localhost:8080');
+  const url = await served.url();
+  const refused = connect(url, { headers: { Origin: 'https://example.org' } });
+  assert.match((await refused.failure).message, /403/);
+  assert.match((await connect(url, { protocols: ['other'] }).failure).message, /403/);
+  for (const Origin of ['https://app.foxglove.dev', 'http://localhost:8080']) {
+    const page = connect(url, { headers: { Origin } });
+    await page.until(() => page.info);
+  }
+});
+
+test('another world ends the subscriptions of the one before', async () => {
+  const served = new Served(MAZE, '--controller', 'still', '--speed', '1');
+  const url = await served.url();
+  const address = (await served.says(/listening on (\S+)/))[1];
+  const client = connect(url);
+  await client.until(() => client.of('/clock').length > 0);
+  const first = client.info.sessionId;
+  const before = client.channels.get('/clock').id;
+  robosim('control', address, 'load', 'worlds/opho2_1.xml');
+  await client.until(() => client.info.sessionId !== first && client.channels.has('/map') && client.channels.get('/clock').id > before);
+  client.topics.clear();
+  robosim('control', address, 'start');
+  await client.until(() => client.of('/clock').length > 0);
+});
