@@ -3,5 +3,6 @@
 
 extern "C" __attribute__((visibility("default"))) void robosimAddNetSubcommands(CLI::App& program) {
   using namespace robosim;
-  for (const auto add : {addServe, addArcos, addRobot, addRemote, addGeometry, addControl}) add(program);
+  for (const auto add : {addServe, addRunWithServer, addArcos, addRobot, addRemote, addGeometry, addControl})
+    add(program);
 }

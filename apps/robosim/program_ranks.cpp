@@ -46,11 +46,14 @@ std::unique_ptr<RankGroup> connectRanks(const LaunchedRank& launched) {
 void checkSubcommand(int argc, char** argv) {
   const Subcommand* subcommand = argc > 1 ? subcommandNamed(argv[1]) : nullptr;
   if (!subcommand) return;
-  const bool is_shown = std::find(argv + 2, argv + argc, kViewOption) != argv + argc;
+  const auto alone = [&](std::string_view option) {
+    return hasOption(option, argc, argv) ? " " + std::string(option) : "";
+  };
+  const std::string shown = alone(kViewOption) + alone(kFoxgloveOption);
   const bool has_ranks =
       std::find(kSubcommandsOnRanks.begin(), kSubcommandsOnRanks.end(), subcommand->name) != kSubcommandsOnRanks.end();
-  if (has_ranks && !is_shown) return;
-  throw ConfigError(std::string("'robosim ") + subcommand->name + (has_ranks ? " --view" : "") +
+  if (has_ranks && shown.empty()) return;
+  throw ConfigError(std::string("'robosim ") + subcommand->name + (has_ranks ? shown : "") +
                     "' runs in one process; start it without mpirun or srun");
 }
 

@@ -147,7 +147,7 @@ LoadedWorld loadedWorld(const LocalRunArguments& arguments, std::optional<WorldS
 
 constexpr const char* kInterrupted = "interrupted; all outputs cover the steps before";
 
-/// @param window of --view; null: none
+/// @param window of --view or --foxglove; null: none
 void runWorld(const LocalRunArguments& arguments, const RunWindow& window, double window_speed) {
   std::optional<Interrupt> interrupt(std::in_place);
   checkArguments(arguments);
@@ -261,7 +261,10 @@ void runOnRanks(const LocalRunArguments& arguments, RankGroup& group) {
 
 }  // namespace
 
-void addRunCommand(CLI::App& program, const RunWindow& window) {
+void addRunCommand(CLI::App& program, const RunWindow& window, const RunServer& server) {
+  // Each part has it; the error for an unknown option looks into all of them.
+  const auto is_run = [](const CLI::App* one) { return one->get_name() == "run"; };
+  if (!program.get_subcommands(is_run).empty()) return;
   auto* command = addSubcommand(program, "run");
   auto arguments = std::make_shared<LocalRunArguments>();
   addRunArguments(*command, *arguments);
@@ -293,21 +296,38 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
                 ->group(kRunGroup),
             kRanks, has_ranks);
   auto has_view = std::make_shared<bool>(false);
+  auto* const view =
+      command
+          ->add_flag(
+              std::string(kViewOption), *has_view,
+              "show the run in a window, in real time unless --speed is given; closing the window ends the run, and "
+              "the window stays open after the run has ended; keys as for 'robosim view'")
+          ->group(kRunGroup);
+  auto foxglove = std::make_shared<std::string>();
   command
-      ->add_flag(std::string(kViewOption), *has_view,
-                 "show the run in a window, in real time unless --speed is given; closing the window ends the run, and "
-                 "the window stays open after the run has ended; keys as for 'robosim view'")
+      ->add_option(std::string(kFoxgloveOption), *foxglove,
+                   "serve the topics of ROS 2 to Foxglove on this machine, in real time unless --speed is given; as "
+                   "'robosim serve --foxglove' (doc/ros2.md)")
+      ->type_name("PORT")
+      ->excludes(view)
       ->group(kRunGroup);
   command->footer(controllersHelp);
-  command->callback([arguments, window, command, has_view] {
-    const bool has_speed = command->count("--speed") > 0;
+  command->callback([arguments, window, server, command, has_view, foxglove] {
+    const double speed = command->count("--speed") > 0 ? speedNumber(arguments->speed) : 1;
+    if (!foxglove->empty()) {
+      if (!server) throw ConfigError("--foxglove: is a feature of the command 'robosim run', which starts robosim-net");
+      const RunWindow serve = [&](auto& run, const auto& of_run, double run_speed, const auto& observe) {
+        return server(run, of_run, *foxglove, run_speed, observe);
+      };
+      return runWorld(*arguments, serve, speed);
+    }
     if (!*has_view && rankGroup().size() > 1) return runOnRanks(*arguments, rankGroup());
     if (!*has_view) return runWorld(*arguments, {}, 0);
     if (!window) throw ConfigError("--view: is a feature of the command 'robosim run', which starts robosim-view");
-    runWorld(*arguments, window, has_speed ? speedNumber(arguments->speed) : 1);
+    runWorld(*arguments, window, speed);
   });
 }
 
-void addRun(CLI::App& program) { addRunCommand(program, {}); }
+void addRun(CLI::App& program) { addRunCommand(program, {}, {}); }
 
 }  // namespace robosim

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <string>
 
 #include "robosim/cli11_names.h"
 #include "run/local_run.h"
@@ -16,8 +17,13 @@ using ObserveStep = std::function<void()>;
 using RunWindow =
     std::function<EndedBy(LocalRun& run, const RunArguments& arguments, double speed, const ObserveStep& observe)>;
 
-/// Adds the subcommand `run`.
+/// Serves a run at an address of --foxglove, and steps it, until it is over or a signal ends it. As RunWindow.
+using RunServer = std::function<EndedBy(LocalRun& run, const RunArguments& arguments, const std::string& address,
+                                        double speed, const ObserveStep& observe)>;
+
+/// Adds the subcommand `run`, unless the program has it.
 /// @param window of --view; null in the executable that has no windows
-void addRunCommand(CLI::App& program, const RunWindow& window);
+/// @param server of --foxglove; null in the executable that has no network
+void addRunCommand(CLI::App& program, const RunWindow& window, const RunServer& server);
 
 }  // namespace robosim

@@ -110,6 +110,6 @@ EndedBy showRun(LocalRun& run, const RunArguments& arguments, double speed, cons
 
 }  // namespace
 
-void addRunWithWindow(CLI::App& program) { addRunCommand(program, showRun); }
+void addRunWithWindow(CLI::App& program) { addRunCommand(program, showRun, {}); }
 
 }  // namespace robosim

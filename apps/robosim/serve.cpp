@@ -156,13 +156,6 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
   return options;
 }
 
-/// A host without a port gets Foxglove's. @throws ConfigError
-std::string foxgloveAddress(const std::string& address) {
-  const bool is_host = address.find(':') == std::string::npos &&
-                       address.find_first_not_of("0123456789") != std::string::npos;
-  return hostAndPort(is_host || address.ends_with(']') ? address + ":8765" : address);
-}
-
 /// @throws ConfigError for an address that is invalid, or exposed without protection
 std::optional<FoxgloveOptions> foxgloveOptions(const ServeArguments& arguments, const ServerOptions& server) {
   if (arguments.foxglove.empty()) return std::nullopt;
@@ -281,13 +274,15 @@ void addServe(CLI::App& program) {
   addArcosOptions(*command, *a);
   const CLI::Option* foxglove =
       command
-          ->add_option("--foxglove", a->foxglove,
-                       "serve the topics of ROS 2 to Foxglove and Lichtblick, which may also drive robots, and pause the "
-                       "run (doc/ros2.md); usually 8765. Uses --tls-cert and --tokens")
+          ->add_option(
+              "--foxglove", a->foxglove,
+              "serve the topics of ROS 2 to Foxglove and Lichtblick, which may also drive robots, and pause the "
+              "run (doc/ros2.md); usually 8765. Uses --tls-cert and --tokens")
           ->type_name("[HOST:]PORT");
   dependsOn(command
                 ->add_option("--foxglove-origin", a->foxglove_origins,
                              "allow pages of another site, such as http://localhost:8080 of a Lichtblick of your own")
+                ->allow_extra_args(false)
                 ->type_name("ORIGIN"),
             foxglove);
   setGroup(*command, kClientsGroup, {"--foxglove", "--foxglove-origin"});

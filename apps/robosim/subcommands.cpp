@@ -15,9 +15,16 @@ const Subcommand* subcommandNamed(std::string_view name) {
 }
 
 const char* partFor(const Subcommand& subcommand, int argc, char** argv) {
-  const bool is_run = subcommand.name == std::string_view("run");
-  return is_run && std::find(argv + 2, argv + argc, kViewOption) != argv + argc ? subcommandNamed("view")->part
-                                                                                : subcommand.part;
+  if (subcommand.name != std::string_view("run")) return subcommand.part;
+  if (hasOption(kViewOption, argc, argv)) return subcommandNamed("view")->part;
+  return hasOption(kFoxgloveOption, argc, argv) ? subcommandNamed("serve")->part : subcommand.part;
+}
+
+bool hasOption(std::string_view option, int argc, char** argv) {
+  return std::any_of(argv + 2, argv + argc, [&](const std::string_view argument) {
+    return argument.substr(0, option.size()) == option &&
+           (argument.size() == option.size() || argument[option.size()] == '=');
+  });
 }
 
 void addNames(CLI::App& program) {

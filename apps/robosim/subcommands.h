@@ -56,12 +56,17 @@ inline constexpr std::array kSubcommands{
 
 /// `robosim run` with this option is in the executable of `robosim view`.
 constexpr std::string_view kViewOption = "--view";
+/// With this one it is in the executable of `robosim serve`.
+constexpr std::string_view kFoxgloveOption = "--foxglove";
 
 /// The entry of kSubcommands with this name; null when there is none.
 const Subcommand* subcommandNamed(std::string_view name);
 
 /// Subcommand::part for the arguments of a program.
 const char* partFor(const Subcommand& subcommand, int argc, char** argv);
+
+/// Whether an option is among the arguments of a subcommand, "--option" or "--option=value".
+bool hasOption(std::string_view option, int argc, char** argv);
 
 /// Adds all subcommands, without options, for the help text.
 void addNames(CLI::App& program);
@@ -76,6 +81,7 @@ CLI::App* addSubcommand(CLI::App& program, std::string_view name);
 ///@{
 void addRun(CLI::App& program);
 void addRunWithWindow(CLI::App& program);  ///< the same, for `robosim run --view`
+void addRunWithServer(CLI::App& program);  ///< the same, for `robosim run --foxglove`
 void addServe(CLI::App& program);
 void addArcos(CLI::App& program);
 void addRobot(CLI::App& program);

@@ -9,14 +9,14 @@ import { Program, ROBOSIM } from '../browser/program.mjs';
 
 const { FoxgloveClient } = protocol;  // of a CommonJS module
 
-// `robosim serve` with Foxglove's port, chosen by the system.
+// `robosim serve` or `robosim run` with Foxglove's port, chosen by the system.
 export class Served extends Program {
-  constructor(world, ...args) {
-    super(ROBOSIM, ['serve', world, '--listen', ':0', '--foxglove', ':0', ...args]);
+  constructor(command, world, ...args) {
+    super(ROBOSIM, [command, world, '--foxglove', ':0', ...args]);
   }
 
   async url() {
-    return (await this.says(/Foxglove: (ws:\/\/\S+)/))[1];
+    return (await this.says(/Foxglove: (wss?:\/\/\S+)/))[1];
   }
 }
 
@@ -33,8 +33,8 @@ export class Client {
   #decoders = new Map();  // by subscription
   #watchers = new Set();
 
-  constructor(url, { protocols = [FoxgloveClient.SUPPORTED_SUBPROTOCOL], subscribes = () => true, headers = {} } = {}) {
-    this.socket = new WebSocket(url, protocols, { headers });
+  constructor(url, { protocols = [FoxgloveClient.SUPPORTED_SUBPROTOCOL], subscribes = () => true, headers = {}, ca } = {}) {
+    this.socket = new WebSocket(url, protocols, { headers, ca });
     this.failure = new Promise((done) => this.socket.on('error', done));
     this.client = new FoxgloveClient({ ws: this.socket });
     const on = (event, act) => this.client.on(event, (data) => {

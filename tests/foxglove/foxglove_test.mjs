@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, afterEach, before, test } from 'node:test';
@@ -10,7 +10,7 @@ import { after, afterEach, before, test } from 'node:test';
 import { parse } from '@foxglove/rosmsg';
 import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 
-import { FOLDER, ROBOSIM } from '../browser/program.mjs';
+import { FOLDER, Program, ROBOSIM } from '../browser/program.mjs';
 import { compareWithTable } from '../mcap/rawlog_table.mjs';
 import { Client, Served } from './client.mjs';
 
@@ -22,10 +22,11 @@ let folder;
 const inFolder = (name) => join(folder, name);
 const robosim = (...args) => execFileSync(ROBOSIM, args, { cwd: FOLDER, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 const programs = [];
-function serve(...args) {
+function start(...args) {
   programs.push(new Served(...args));
   return programs.at(-1);
 }
+const serve = (world, ...args) => start('serve', world, '--listen', ':0', ...args);
 const timers = [];
 const clients = [];
 function connect(...args) {
@@ -210,7 +211,7 @@ test('the limits of the robot apply, and what is no command is refused', async (
     await client.until(() => client.statuses.some(({ message }) => message.includes(why)));
     client.client.unadvertise(id);
   };
-  await refused('/nobody/cmd_vel', 'geometry_msgs/msg/Twist', twist(1, 0), 'no robot has this topic');
+  await refused('/absent/cmd_vel', 'geometry_msgs/msg/Twist', twist(1, 0), 'no robot has this topic');
   await refused(`/${robot}/cmd_vel`, 'std_msgs/msg/String', twist(1, 0), 'a message of the type std_msgs/msg/String');
   await refused(`/${robot}/cmd_vel`, 'geometry_msgs/msg/Twist', twist(NaN, 0), 'speeds must be finite');
   await refused(`/${robot}/cmd_vel`, 'geometry_msgs/msg/Twist', twist(1, 0).slice(0, 20), 'which cannot be: it has 20 bytes');
@@ -236,10 +237,10 @@ test('a token decides what a client may do', async () => {
   writeFileSync(inFolder('tokens'), `${tokens.viewer} viewer\n${tokens.operator} operator name=anna\n`, { mode: 0o600 });
   const served = serve(MAZE, '--controller', 'still', '--speed', '1', '--tokens', inFolder('tokens'));
   const url = await served.url();
-  const stranger = connect(url);
-  await stranger.until(() => stranger.closed !== undefined);
-  assert.match(stranger.statuses[0].message, /add \?token=TOKEN to the address/);
-  assert.equal(stranger.channels.size, 0);
+  const unknown = connect(url);
+  await unknown.until(() => unknown.closed !== undefined);
+  assert.match(unknown.statuses[0].message, /add \?token=TOKEN to the address/);
+  assert.equal(unknown.channels.size, 0);
   const viewer = connect(`${url}/?token=${tokens.viewer}`);
   await viewer.until(() => viewer.of('/clock').length > 0);
   viewer.set('/run/paused', true);
@@ -253,6 +254,17 @@ test('a token decides what a client may do', async () => {
   await served.says(/audit: \S+ anna \(127.0.0.1\): pause/);
 });
 
+test('a server with a certificate is reached by TLS only', async () => {
+  const [certificate, key] = ['cert.pem', 'key.pem'].map(inFolder);
+  execFileSync('openssl', ['req', '-x509', '-newkey', 'rsa:2048', '-nodes', '-days', '1', '-subj', '/CN=localhost', '-addext',
+                           'subjectAltName=IP:127.0.0.1', '-keyout', key, '-out', certificate], { stdio: 'ignore' });
+  const url = await serve(MAZE, '--controller', 'still', '--tls-cert', certificate, '--tls-key', key).url();
+  assert.match(url, /^wss:/);
+  const client = connect(url, { ca: readFileSync(certificate) });
+  await client.until(() => client.of('/map').length > 0);
+  assert.ok((await connect(url.replace('wss:', 'ws:')).failure).message);
+});
+
 test('pages of other sites, and other protocols, are refused', async () => {
   const served = serve(MAZE, '--controller', 'still', '--speed', '1', '--foxglove-origin', 'http://localhost:8080');
   const url = await served.url();
@@ -263,6 +275,36 @@ test('pages of other sites, and other protocols, are refused', async () => {
     const page = connect(url, { headers: { Origin } });
     await page.until(() => page.info);
   }
+});
+
+test('a run of one process is served to its end, in real time and with the same digest', async () => {
+  const run = start('run', MAZE, '--controller', 'wander', '--seed', '7', '--time', '3', '--json');
+  const client = connect(await run.url());
+  await client.until(() => client.of('/clock').length > 0);
+  client.set('/run/paused', true);
+  await client.until(() => client.parameters.get('/run/paused') === true);
+  client.set('/run/speed', 10);
+  client.set('/run/paused', false);
+  await client.until(() => client.of('/clock').at(-1).time === 3n * SECOND);
+  await run.ended();
+  const without = JSON.parse(robosim('run', MAZE, '--controller', 'wander', '--seed', '7', '--time', '3', '--json'));
+  assert.equal(JSON.parse(run.output).digest, without.digest);
+  const refused = new Program(ROBOSIM, ['run', MAZE, '--foxglove', '0.0.0.0:0']);
+  await refused.ended();
+  assert.match(refused.error, /other machines could drive the robots/);
+});
+
+test('the layout for Foxglove shows topics of the world that the documentation serves', async () => {
+  const layout = JSON.parse(readFileSync(`${FOLDER}layouts/foxglove.json`, 'utf8'));
+  const panels = [];
+  const collect = (node) => typeof node === 'string' ? panels.push(node) : [node.first, node.second].forEach(collect);
+  collect(layout.layout);
+  assert.deepEqual(panels.sort(), Object.keys(layout.configById).sort());
+  const names = JSON.stringify(layout).match(/"\/[^".]+/g).map((name) => name.slice(1));
+  assert.ok(names.length > 8);
+  const client = connect(await serve(MAZE, '--controller', 'still', '--paused').url(), { subscribes: () => false });
+  await client.until(() => client.services.size > 0);
+  for (const name of names) assert.ok(client.channels.has(name) || client.services.has(name), name);
 });
 
 test('another world ends the subscriptions of the one before', async () => {

@@ -35,10 +35,15 @@ std::string fullName(const std::string& schema) {
              : schema.substr(0, slash) + "/msg" + schema.substr(slash);
 }
 
+/// An absent number is 0. @throws ros::CdrError
 double numberOf(const json& twist, const char* part, const char* axis) {
-  const auto value = twist.value(json::json_pointer(std::string("/") + part + "/" + axis), json(0.0));
-  if (!value.is_number()) throw ros::CdrError(std::string(part) + "." + axis + " is no number");
-  return value.get<double>();
+  const auto vector = twist.find(part);
+  if (vector == twist.end()) return 0;
+  if (!vector->is_object()) throw ros::CdrError(std::string(part) + " is no object");
+  const auto number = vector->find(axis);
+  if (number == vector->end()) return 0;
+  if (!number->is_number()) throw ros::CdrError(std::string(part) + "." + axis + " is no number");
+  return number->get<double>();
 }
 
 /// Decodes a message. @throws ros::CdrError
@@ -47,7 +52,8 @@ ros::Twist twistOf(const foxglove::Publication& publication) {
   if (publication.channel.encoding == "json") {
     const json message = json::parse(publication.payload, nullptr, false);
     if (!message.is_object()) throw ros::CdrError("the message is no JSON object");
-    const json twist = is_stamped ? message.value("twist", json::object()) : message;
+    const json twist = is_stamped ? message.value("twist", json()) : message;
+    if (!twist.is_object()) throw ros::CdrError("twist is no object");
     ros::Twist made;
     made.linear.x = numberOf(twist, "linear", "x");
     made.angular.z = numberOf(twist, "angular", "z");

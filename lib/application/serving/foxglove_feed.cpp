@@ -52,6 +52,7 @@ FoxgloveFeed::FoxgloveFeed(foxglove::Hub& hub, const Environment& environment)
     }
     kept_.emplace_back(robot.info.sensors);
   }
+  was_absent_.resize(robots_.size());
 }
 
 std::size_t FoxgloveFeed::channelOf(const Topic& topic) {
@@ -123,10 +124,9 @@ void FoxgloveFeed::sendLatched() {
 void FoxgloveFeed::sendRobots(Audience audience) {
   const State& state = environment_.state();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    if (state.isAbsent(i)) {
-      kept_[i].forget();
-      continue;
-    }
+    const bool is_absent = state.isAbsent(i);
+    if (std::exchange(was_absent_[i], is_absent) != is_absent) kept_[i].forget();
+    if (is_absent) continue;
     if (!isWanted(i, audience)) continue;
     const Readings& readings = state.readings[i];
     std::vector<std::uint8_t> kept;

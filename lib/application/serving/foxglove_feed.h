@@ -47,6 +47,7 @@ class FoxgloveFeed {
   std::vector<std::vector<std::size_t>> channels_of_robot_;  ///< by robot and topic
   std::vector<std::vector<std::size_t>> pictures_of_robot_;  ///< channels with pictures
   std::vector<KeptReadings> kept_;
+  std::vector<std::uint8_t> was_absent_;  ///< by robot
   WorldTopics world_;
   std::size_t clock_ = 0, static_transforms_ = 0, map_ = 0, objects_ = 0, interventions_ = 0, events_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error_list.h"
+#include "net/host_port.h"
 #include "ros/cdr.h"
 
 namespace robosim {
@@ -34,6 +35,9 @@ constexpr std::array kRunServices{
 
 constexpr const char* kMayNotOperate = "the token does not permit it; use one of the role operator";
 
+/// Between two updates of the parameters, whose time is proportional to the number of robots.
+constexpr std::chrono::milliseconds kParametersPause{50};
+
 std::vector<foxglove::Service> services() {
   std::vector<foxglove::Service> all;
   for (const auto& service : kRunServices) all.push_back({service.name, kTrigger, "", kTriggerResponse});
@@ -41,6 +45,16 @@ std::vector<foxglove::Service> services() {
 }
 
 }  // namespace
+
+std::string foxgloveAddress(const std::string& address) {
+  const bool is_host =
+      address.find(':') == std::string::npos && address.find_first_not_of("0123456789") != std::string::npos;
+  return hostAndPort(is_host || address.ends_with(']') ? address + ":8765" : address);
+}
+
+std::string foxgloveLine(const foxglove::Server::Options& options, int port) {
+  return "Foxglove: " + std::string(options.tls ? "wss" : "ws") + "://" + withPort(options.listen, port);
+}
 
 FoxgloveServing::FoxgloveServing(const FoxgloveOptions& options)
     : options_(options), drivers_(options.server.access, options.server.log), server_([&] {
@@ -51,22 +65,26 @@ FoxgloveServing::FoxgloveServing(const FoxgloveOptions& options)
 
 FoxgloveServing::~FoxgloveServing() = default;
 
-void FoxgloveServing::begin(LocalRun& run, const RunInfo& info, const std::vector<std::string>& why_not_driven) {
+void FoxgloveServing::begin(LocalRun& run, const std::string& run_id, std::uint64_t seed,
+                            const std::vector<std::string>& why_not_driven) {
   drivers_.begin(run, why_not_driven);
   feed_.emplace(server_.hub(), run.environment());
   world_ = run.environment().world().name;
-  seed_ = info.seed;
+  seed_ = seed;
   server_.hub().offer({{"RoboSim: " + world_,
                         {"time", "clientPublish", "parameters", "parametersSubscribe", "services"},
                         {"cdr", "json"},
-                        info.run_id},
+                        run_id},
                        feed_->channels(),
                        services()});
 }
 
 void FoxgloveServing::poll(RunControl& control, const FoxgloveRecording& recording) {
   foxglove::Hub& hub = server_.hub();
-  hub.setParameters(parameters(control, recording));
+  if (const auto now = std::chrono::steady_clock::now(); now >= parameters_due_) {
+    parameters_due_ = now + kParametersPause;
+    hub.setParameters(parameters(control, recording));
+  }
   for (const auto& request : hub.takeRequests()) {
     if (const auto* const of_parameters = std::get_if<foxglove::ParameterChange>(&request)) {
       change(*of_parameters, control, recording);
@@ -78,12 +96,12 @@ void FoxgloveServing::poll(RunControl& control, const FoxgloveRecording& recordi
 }
 
 std::vector<foxglove::Parameter> FoxgloveServing::parameters(const RunControl& control,
-                                                   const FoxgloveRecording& recording) const {
+                                                             const FoxgloveRecording& recording) const {
   std::vector<foxglove::Parameter> all{{kPaused, control.is_paused, ""},
-                             {kSpeed, control.speed, "float64"},
-                             {kStepsLeft, control.steps_left, ""},
-                             {kWorld, world_, ""},
-                             {kSeed, seed_, ""}};
+                                       {kSpeed, control.speed, "float64"},
+                                       {kStepsLeft, control.steps_left, ""},
+                                       {kWorld, world_, ""},
+                                       {kSeed, seed_, ""}};
   if (recording.is_possible) all.push_back({kRecording, recording.is_on, ""});
   for (const auto& [parameter, is_autonomous] : drivers_.autonomous()) all.push_back({parameter, is_autonomous, ""});
   return all;

@@ -1,4 +1,7 @@
 #pragma once
+#include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,7 +10,6 @@
 #include "foxglove/server.h"
 #include "run/local_run.h"
 #include "server/run_control.h"
-#include "server/run_info.h"
 #include "serving/foxglove_drivers.h"
 #include "serving/foxglove_feed.h"
 
@@ -25,6 +27,11 @@ struct FoxgloveRecording {
   std::function<void(bool)> set = [](bool) {};
 };
 
+/// Address of --foxglove, "host:port"; a host without a port gets 8765. @throws ConfigError
+std::string foxgloveAddress(const std::string& address);
+/// Line of the log that names the address, with the port that was chosen.
+std::string foxgloveLine(const foxglove::Server::Options& options, int port);
+
 /// Serves the runs of a program to Foxglove and other clients of its protocol: topics (FoxgloveFeed), driving
 /// (FoxgloveDrivers), parameters and services. All functions are called by the thread that steps the environment; none
 /// of them waits.
@@ -36,9 +43,10 @@ class FoxgloveServing {
 
   int port() const { return server_.port(); }
   /// Serves a run instead of the one before, which must still exist. @param run must outlive its time here
-  /// @param info of the run @param why_not_driven by robot: why it cannot be driven; empty if this process has its
-  /// controller
-  void begin(LocalRun& run, const RunInfo& info, const std::vector<std::string>& why_not_driven);
+  /// @param run_id another one for each run
+  /// @param why_not_driven by robot: why it cannot be driven; empty if this process has its controller
+  void begin(LocalRun& run, const std::string& run_id, std::uint64_t seed,
+             const std::vector<std::string>& why_not_driven);
   /// Handles requests, and sends the state to new clients. Between steps, at least every ServingState::kPollInterval.
   void poll(RunControl& control, const FoxgloveRecording& recording);
   /// Sends the messages of a step.
@@ -47,7 +55,6 @@ class FoxgloveServing {
   std::vector<std::uint8_t> pictured() const { return feed_->pictured(); }
 
  private:
-  struct Run;
   std::vector<foxglove::Parameter> parameters(const RunControl& control, const FoxgloveRecording& recording) const;
   void change(const foxglove::ParameterChange& change, RunControl& control, const FoxgloveRecording& recording);
   std::string setParameter(const foxglove::Client& client, const foxglove::Parameter& parameter, RunControl& control,
@@ -60,6 +67,7 @@ class FoxgloveServing {
   std::optional<FoxgloveFeed> feed_;
   std::string world_;
   std::uint64_t seed_ = 0;
+  std::chrono::steady_clock::time_point parameters_due_;  ///< when clients are informed of changes
 };
 
 }  // namespace robosim

@@ -161,8 +161,7 @@ WorldRun::WorldRun(WorldRunOptions options)
   foxglove_ = std::make_unique<FoxgloveServing>(*options_.foxglove);
   beginFoxglove();
   const auto& server = options_.foxglove->server;
-  server.log("Foxglove: " + std::string(server.tls ? "wss" : "ws") + "://" +
-             withPort(server.listen, foxglove_->port()));
+  server.log(foxgloveLine(server, foxglove_->port()));
 }
 
 WorldRun::~WorldRun() = default;
@@ -206,7 +205,7 @@ void WorldRun::beginFoxglove() {
                                                        "'robosim remote'"
                                                      : "");
   }
-  foxglove_->begin(run_->run, run_->run_info, why_not_driven);
+  foxglove_->begin(run_->run, run_->run_info.run_id, run_->run_info.seed, why_not_driven);
 }
 
 void WorldRun::poll(RunControl& control) {

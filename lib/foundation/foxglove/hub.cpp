@@ -127,17 +127,16 @@ void Hub::endRound() {
 void Hub::setParameters(const std::vector<Parameter>& parameters) {
   {
     const std::lock_guard lock(mutex_);
+    if (parameters == parameters_) return;
+    std::map<std::string, const Parameter*> former;
+    for (const auto& parameter : parameters_) former[parameter.name] = &parameter;
     std::vector<Parameter> changed;
     for (const auto& parameter : parameters) {
-      if (std::find(parameters_.begin(), parameters_.end(), parameter) == parameters_.end()) {
-        changed.push_back(parameter);
-      }
+      const auto found = former.find(parameter.name);
+      if (found == former.end() || *found->second != parameter) changed.push_back(parameter);
+      if (found != former.end()) former.erase(found);
     }
-    for (const auto& former : parameters_) {
-      const auto has_name = [&](const Parameter& parameter) { return parameter.name == former.name; };
-      if (std::none_of(parameters.begin(), parameters.end(), has_name)) changed.push_back({former.name, {}, {}});
-    }
-    if (changed.empty()) return;
+    for (const auto& [name, parameter] : former) changed.push_back({name, {}, {}});  // it is no longer there
     parameters_ = parameters;
     for (auto& [id, page] : pages_) {
       std::vector<Parameter> watched;

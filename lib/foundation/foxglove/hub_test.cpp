@@ -99,7 +99,7 @@ TEST_F(FoxgloveHub, SendsMessagesOfAChannelToItsSubscribersOnly) {
   open(2);
   received(1);
   received(2);
-  EXPECT_FALSE(round(0, Hub::Audience::all, "nobody"));
+  EXPECT_FALSE(round(0, Hub::Audience::all, "none"));
   subscribe(1, 5, 1);
   EXPECT_TRUE(round(0, Hub::Audience::all, "a"));
   EXPECT_FALSE(round(1, Hub::Audience::all, "b"));
@@ -202,7 +202,7 @@ TEST_F(FoxgloveHub, EndsSubscriptionsWithTheRunAndNeverUsesItsIdsAgain) {
   EXPECT_EQ(last(1), status(2, "subscribe: channel 1 does not exist"));
 }
 
-TEST_F(FoxgloveHub, SendsChangedParametersToThoseWhoWatchThem) {
+TEST_F(FoxgloveHub, SendsChangedParametersToThoseThatWatchThem) {
   start();
   hub->setParameters({{"/a", 1, ""}, {"/b", true, ""}});
   open(1);

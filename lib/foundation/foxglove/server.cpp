@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <iterator>
 #include <thread>
 #include <utility>
@@ -16,6 +17,8 @@ namespace {
 
 /// Foxglove in a browser, and its desktop application, whose pages are files.
 constexpr std::array kApplications{"https://app.foxglove.dev", "https://studio.foxglove.dev", "file://"};
+
+constexpr std::chrono::milliseconds kLastMessagesWithin{500};
 
 }  // namespace
 
@@ -36,10 +39,18 @@ struct Server::Impl {
              .on_news = [this] { web.requestTick(); },
              .publications = options.publications}),
         web(webOptions(options), events()),
-        thread([this] { web.serve([this] { return is_over.load(); }); }) {}
+        thread([this] { web.serve([this] { return mustEnd(); }); }) {}
   ~Impl() {
     is_over = true;
     thread.join();
+  }
+
+  /// Clients receive what waits for them at the end, unless they are slow.
+  bool mustEnd() {
+    if (!is_over) return false;
+    const auto now = std::chrono::steady_clock::now();
+    if (!ends) ends = now + kLastMessagesWithin;
+    return now >= *ends || hub.waitingPages().empty();
   }
 
   static WebServer::Options webOptions(const Options& options) {
@@ -94,6 +105,7 @@ struct Server::Impl {
   Hub hub;
   WebServer web;
   std::atomic<bool> is_over{false};
+  std::optional<std::chrono::steady_clock::time_point> ends;  ///< of the server's thread
   std::thread thread;
 };
 

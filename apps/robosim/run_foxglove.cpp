@@ -1,0 +1,68 @@
+// `robosim run --foxglove`: a run of this process, served to Foxglove on this machine.
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "base/error_list.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/seconds.h"
+#include "net/host_port.h"
+#include "robosim/run_command.h"
+#include "robosim/subcommands.h"
+#include "serving/foxglove_serving.h"
+
+namespace robosim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+FoxgloveOptions localOptions(const std::string& address) {
+  FoxgloveOptions options;
+  options.server.listen = foxgloveAddress(address);
+  if (!isLoopback(options.server.listen)) {
+    throw ConfigError("--foxglove " + address + ": other machines could drive the robots; use 127.0.0.1, or 'robosim " +
+                      "serve --foxglove', which has TLS and tokens");
+  }
+  options.server.log = [](const std::string& line) { logInfo("run", line); };
+  return options;
+}
+
+EndedBy serveRun(LocalRun& run, const RunArguments& arguments, const std::string& address, double speed,
+                 const ObserveStep& observe) {
+  constexpr std::chrono::milliseconds kNap(10);  // requests are handled in between
+  const Interrupt interrupt;
+  const FoxgloveOptions options = localOptions(address);
+  FoxgloveServing serving(options);
+  serving.begin(run, std::to_string(std::random_device()()), arguments.run.environment.seed,
+                std::vector<std::string>(run.environment().robotCount()));
+  logInfo("run", foxgloveLine(options.server, serving.port()));
+  RunControl control;
+  control.speed = speed;
+  observe();
+  Clock::time_point due = Clock::now();
+  while (!run.isOver()) {
+    if (interrupt.isRequested()) return EndedBy::interrupt;
+    if (arguments.timeIsUp(run.environment().time())) return EndedBy::time_limit;
+    const double former_speed = control.speed;
+    serving.poll(control, {});
+    const auto now = Clock::now();
+    if (!control.mayStep() || control.speed != former_speed) due = now;
+    if (!control.mayStep() || now < due) {
+      std::this_thread::sleep_for(control.mayStep() ? std::min<Clock::duration>(kNap, due - now) : kNap);
+      continue;
+    }
+    run.step(observe);
+    serving.stepped();
+    if (control.steps_left > 0) --control.steps_left;
+    if (control.speed > 0) due += fromSeconds(run.environment().time().period_s / control.speed);
+  }
+  return endedByItself(run);
+}
+
+}  // namespace
+
+void addRunWithServer(CLI::App& program) { addRunCommand(program, {}, serveRun); }
+
+}  // namespace robosim
