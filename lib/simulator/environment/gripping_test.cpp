@@ -301,7 +301,8 @@ TEST(Gripper, LetsNothingOverlap) {
       for (std::size_t a = 0; a < solids.size(); ++a) {
         ASSERT_TRUE(crowd.world.bounds.covers(boundsOf(solids[a]))) << seed << ", " << i << ": " << names[a];
         for (std::size_t b = 0; b < a; ++b) {
-          ASSERT_FALSE(Crowd::overlap(solids[a], solids[b])) << seed << ", " << i << ": " << names[a] << " " << names[b];
+          ASSERT_FALSE(Crowd::overlap(solids[a], solids[b]))
+              << seed << ", " << i << ": " << names[a] << " " << names[b];
         }
       }
     }

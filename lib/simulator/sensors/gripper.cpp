@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.h"
 #include "hardware/gripper_state.h"
 #include "sensors/beam_mounts.h"
 
@@ -19,7 +20,7 @@ class Gripper : public Sensor {
   std::size_t rayCount() const override { return 2; }
   bool usesNeighbours() const override { return false; }
   double robotReach(double) const override {
-    return std::hypot(options.front_m + options.reach_m, options.opening_m / 2);
+    return portable::hypot(options.front_m + options.reach_m, options.opening_m / 2);
   }
   Measurement blank() const override { return GripperState{}.values(); }
 
