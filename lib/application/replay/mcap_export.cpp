@@ -25,12 +25,7 @@ class McapSteps {
     }
     LoadedWorld loaded = loadWorld(note_.world, {});
     for (const auto& robot : loaded.fleet.robots) robots_.push_back(robot.info);
-    auto model = std::make_shared<Model>();
-    model->world = std::move(loaded.world);
-    model->fleet = std::move(loaded.fleet);
-    model->seed = note_.seed;
-    model->period_s = note_.period_s;
-    model_ = std::move(model);
+    model_ = std::make_shared<const Model>(std::move(loaded.world), std::move(loaded.fleet), note_.seed, note_.period_s);
     topics_.emplace(model_);
   }
 

@@ -9,13 +9,14 @@
 namespace robosim {
 
 Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images) {
-  auto model = std::make_shared<const Model>(Model{std::move(world), std::move(fleet), options.seed, options.period_s});
+  auto model = std::make_shared<const Model>(std::move(world), std::move(fleet), options.seed, options.period_s);
   State start = options.share ? initialState(*model, options.share->kept) : initialState(*model);
   impl_ = std::make_unique<Impl>(std::move(model), std::move(start), options.threads, images, options.share);
   impl_->start();
 }
 
 Environment::Environment(std::shared_ptr<const Model> model, State state, int threads, ImageSource* images) {
+  if (state.additions != model->additions) model = withAdditions(*model, state.additions);
   requireSameShape(state, initialState(*model));
   impl_ = std::make_unique<Impl>(std::move(model), std::move(state), threads, images);
 }
@@ -52,9 +53,21 @@ void Environment::countDroppedMessages(std::uint64_t messages) { impl_->state.me
 
 bool Environment::enter(std::size_t robot) { return impl_->enter(robot); }
 
+void Environment::setRobotCheck(RobotCheck check) { impl_->robot_check = std::move(check); }
+
 World Environment::presentWorld() const {
   World present = world();
   present.objects = objects();
+  if (present.robots.empty()) return present;  // it was loaded without, to save memory
+  for (const AddRobot& added : state().additions.list()) {
+    RobotPlacement& robot = present.robots.emplace_back();
+    robot.name = added.name;
+    robot.model = added.model;
+    robot.world_from_robot = added.world_from_robot;
+    robot.color = added.color;
+    robot.controller = added.controller;
+    robot.neighbour = added.neighbour;
+  }
   return present;
 }
 
@@ -75,8 +88,8 @@ StepPhases Environment::phases() { return StepPhases(*impl_); }
 
 void Environment::step() {
   StepPhases phases = this->phases();
-  const RobotRange every = impl_->everyRobot();
   phases.begin();
+  const RobotRange every = impl_->everyRobot();  // of which the timeline may have added some
   phases.clip(every);
   phases.judge(every);
   phases.move();

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,6 +29,13 @@ struct EnvironmentOptions {
 };
 
 class StepPhases;
+
+/// Checks a robot that an intervention adds, for what the environment does not know, such as its controller.
+/// @return what is wrong, and how to fix it; empty if nothing is
+using RobotCheck = std::function<std::string(const FleetRobot&)>;
+
+/// Maximum number of robots that are added to a run, each with a Model of its own.
+constexpr std::size_t kAddedRobotsMax = 1000;
 
 /// Advances the State of a Model by time steps. It uses no socket, wall clock or global: the same model and commands
 /// give the same run, bit for bit, for any number of threads. A copy of the state saves the run; restore() continues
@@ -58,6 +66,8 @@ class Environment {
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
 
+  /// The present one: when a robot is added, another follows it, and when a state with other added robots is restored.
+  /// All of them remain valid as long as the environment, and have the same world. The indices of robots do not change.
   const std::shared_ptr<const Model>& model() const;
   const World& world() const { return model()->world; }
   const Fleet& fleet() const { return model()->fleet; }
@@ -66,8 +76,9 @@ class Environment {
   SimTime time() const { return state().time; }
 
   /// Replaces the state between two steps.
-  /// @pre a state of this model, from any environment or another process
+  /// @pre a state of this model or of one with other added robots, from any environment or another process
   /// @throws std::invalid_argument for a state of another world or time step
+  /// @throws ConfigError when the type of an added robot cannot be read
   void restore(const State& state);
   /// Begins another run of the model between two steps, without building or allocating anything: restores a state
   /// before the first measurement, and updates the sensors once, as step 0. Equal to a new environment that starts at
@@ -102,9 +113,11 @@ class Environment {
   [[nodiscard]] std::string apply(const Intervention& intervention);
   /// The same for one that another environment of this run has applied, in the same state: it is not checked.
   void applyAgain(const Intervention& intervention);
+  /// Also checks each robot before it is added by apply(). Null: no check.
+  void setRobotCheck(RobotCheck check);
   /// The objects at present: those of the world, as interventions have changed them. Valid until the next change.
   const std::vector<WorldObject>& objects() const { return state().objects.orThose(world().objects); }
-  /// A copy of the world with its present objects.
+  /// A copy of the world with its present objects and added robots.
   World presentWorld() const;
   /// Limits and errors of the radio at present.
   const Communication& communication() const;

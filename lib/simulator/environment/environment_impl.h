@@ -39,10 +39,15 @@ struct Environment::Impl {
   static PushingDisc pushingDiscOf(const FleetRobot& robot) {
     return {robot.info.radius_m, robot.body.heights(), robot.model->push_max_n};
   }
+  static std::string nameOf(const FleetRobot& robot) { return robot.info.name; }
+  static MotionLimits limitsOf(const FleetRobot& robot) { return robot.info.limits; }
+  static double antennaOf(const FleetRobot& robot) { return robot.body.heights().z_max_m; }
   static double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
 
-  const std::shared_ptr<const Model> model;
-  const Fleet& fleet;  ///< of the model
+  std::shared_ptr<const Model> model;
+  std::vector<std::shared_ptr<const Model>> models;  ///< all of the run so far, to which readers may refer
+  RobotCheck robot_check;
+  bool is_shared;  ///< with other processes
   ImageSource* images;
   ParallelExecutor workers;
   State state;
@@ -70,28 +75,47 @@ struct Environment::Impl {
   Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images,
        const std::optional<RobotShare>& the_share = {})
       : model(std::move(the_model)),
-        fleet(model->fleet),
+        models{model},
+        is_shared(the_share.has_value()),
         images(the_images),
         workers(threads),
         state(std::move(the_state)),
         bodies(*model, state.objects.orThose(model->world.objects)),
         scene(bodies.scene()),
-        move_authorisation(ofRobots(fleet, moverOf), model->world.bounds),
+        move_authorisation(ofRobots(fleet(), moverOf), model->world.bounds),
         object_mover(moverOfObjects()),
-        message_router(ofRobots(fleet, [](const auto& robot) { return robot.info.name; }), model->world.communication),
-        robot_groups(fleet, model->period_s),
-        limits(ofRobots(fleet, [](const auto& robot) { return robot.info.limits; })),
-        known(fleet.robots.size()),
+        message_router(ofRobots(fleet(), nameOf), model->world.communication),
+        robot_groups(fleet(), model->period_s),
+        limits(ofRobots(fleet(), limitsOf)),
+        known(fleet().robots.size()),
         counted(everyRobot()),
-        paths(fleet.robots.size()),
-        antenna_z_m(ofRobots(fleet, [](const auto& robot) { return robot.body.heights().z_max_m; })),
+        paths(fleet().robots.size()),
+        antenna_z_m(ofRobots(fleet(), antennaOf)),
         share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
-    for (std::uint32_t i = 0; i < fleet.robots.size(); ++i) {
-      if (fleet.robots[i].model->gripper) robots_with_gripper.push_back(i);
-    }
+    noteGrippers();
     noteState();
     placeBodies();
   }
+
+  const Fleet& fleet() const { return model->fleet; }
+  void noteGrippers() {
+    robots_with_gripper.clear();
+    for (std::uint32_t i = 0; i < fleet().robots.size(); ++i) {
+      if (fleet().robots[i].model->gripper) robots_with_gripper.push_back(i);
+    }
+  }
+
+  /// @name Robots that are added (added_robots.cpp)
+  ///@{
+  /// A model of this run in which these robots have been added. @throws ConfigError
+  std::shared_ptr<const Model> modelWith(const RobotAdditions& additions) const;
+  /// Continues with another model of this run, of the state's robots. noteState() and placeBodies() must follow.
+  void useModel(std::shared_ptr<const Model> other);
+  /// Adds the robot that is the last of another model.
+  void addRobot(std::shared_ptr<const Model> larger);
+  /// Restores a state in which other robots have been added.
+  void restoreWithOtherRobots(const State& saved);
+  ///@}
 
   /// After the state was replaced.
   void noteState() {
@@ -201,7 +225,7 @@ struct Environment::Impl {
     if (!robots_with_gripper.empty()) closeGrippers();
   }
 
-  RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
+  RobotRange everyRobot() const { return {0, fleet().robots.size()}; }
 
   /// @param kept memory for the result
   std::span<const std::uint32_t> presentOf(std::span<const std::uint32_t> robots,
@@ -253,7 +277,7 @@ struct Environment::Impl {
 
   bool enter(std::size_t robot) {
     if (!state.isAbsent(robot)) return false;
-    const auto& start = fleet.robots[robot].world_from_start;
+    const auto& start = fleet().robots[robot].world_from_start;
     if (!isFreeFor(robot, start)) return false;
     moveRobot(robot, start);
     return true;
@@ -269,7 +293,7 @@ struct Environment::Impl {
     state.world_from_robot[robot] = world_from_robot;
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
     letGo(robot);
-    if (state.isAbsent(robot)) resetRobot(state, robot, Activity::active, *fleet.robots[robot].model);
+    if (state.isAbsent(robot)) resetRobot(state, robot, Activity::active, *fleet().robots[robot].model);
     ++pose_changes;
     noteAbsentRobots();
     placeBodies();
@@ -280,7 +304,7 @@ struct Environment::Impl {
     for (const std::size_t robot : robots) {
       if (state.isAbsent(robot)) continue;
       letGo(robot);
-      resetRobot(state, robot, Activity::absent, *fleet.robots[robot].model);
+      resetRobot(state, robot, Activity::absent, *fleet().robots[robot].model);
       ++pose_changes;
     }
     if (pose_changes == changes_before) return;
@@ -350,7 +374,7 @@ struct Environment::Impl {
       if (!range.contains(i)) state.readings[i].measurements = std::vector<Measurement>();
     }
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      if (!share.kept.contains(i)) state.readings[i].measurements = blankMeasurements(*fleet.robots[i].model);
+      if (!share.kept.contains(i)) state.readings[i].measurements = blankMeasurements(*fleet().robots[i].model);
     }
     share.kept = range;
   }
@@ -359,7 +383,7 @@ struct Environment::Impl {
     const Referee referee(objects(), model->world.win_distance_m);
     const auto winner = referee.decide(state.win_requests, [this](std::size_t robot) {
       const auto& pose = state.world_from_robot[robot];
-      return Circle{{pose.x, pose.y}, fleet.robots[robot].info.radius_m};
+      return Circle{{pose.x, pose.y}, fleet().robots[robot].info.radius_m};
     });
     if (!winner) {
       forFlags(state.win_requests, [&](std::size_t i) {
@@ -369,7 +393,7 @@ struct Environment::Impl {
     }
     state.won = {*winner, state.time.step};
     for (std::size_t i = 0; i < state.readings.size(); ++i) {
-      state.readings[i].winner = fleet.robots[*winner].info.name;
+      state.readings[i].winner = fleet().robots[*winner].info.name;
       if (state.activity[i] == Activity::active) {
         state.activity[i] = i == *winner ? Activity::found : Activity::halted;
       }
@@ -385,6 +409,7 @@ struct Environment::Impl {
   }
 
   void restore(const State& saved) {
+    if (saved.additions != state.additions) return restoreWithOtherRobots(saved);
     requireSameShape(saved, state);
     const bool has_same_objects = saved.objects.isSameList(state.objects);
     state = saved;

@@ -63,19 +63,19 @@ void Environment::Impl::closeGrippers() {
 }
 
 std::optional<HeldObject> Environment::Impl::objectBetweenPaddles(std::uint32_t robot) const {
-  const GripperOptions& gripper = *fleet.robots[robot].model->gripper;
+  const GripperOptions& gripper = *fleet().robots[robot].model->gripper;
   const auto& pose = state.world_from_robot[robot];
   std::vector<std::uint32_t> near;
   scene.findMoving({pose.x, pose.y}, gripper.front_m + gripper.reach_m, scene.movingCount(), near);
   std::sort(near.begin(), near.end());
   std::optional<HeldObject> nearest;
   for (const auto moving : near) {
-    if (moving < fleet.robots.size()) continue;
-    const auto object = static_cast<std::uint32_t>(moving - fleet.robots.size());
+    if (moving < fleet().robots.size()) continue;
+    const auto object = static_cast<std::uint32_t>(moving - fleet().robots.size());
     const MovableBody& body = bodies.movable()[object];
     const bool is_taken =
         std::any_of(held.begin(), held.end(), [&](const HeldObject& one) { return one.object == object; });
-    const bool is_too_heavy = body.friction_n > fleet.robots[robot].model->push_max_n;
+    const bool is_too_heavy = body.friction_n > fleet().robots[robot].model->push_max_n;
     if (body.isDriven() || is_taken || is_too_heavy) continue;
     if (gripper.z_m < body.heights.z_min_m || gripper.z_m > body.heights.z_max_m) continue;
     const auto robot_from_object = inFrameOf(pose, motions[object].world_from_object);

@@ -41,6 +41,8 @@ Intervention readIntervention(StateReader& in) {
   return {std::move(author), takeChange(in)};
 }
 
+AddRobot readAddition(StateReader& in) { return takeChangeOf<AddRobot>(in); }
+
 void writeObjects(const ChangedObjects& changed, StateWriter& out) {
   out.addNumber(std::uint8_t{changed.areChanged()});
   if (!changed.areChanged()) return;

@@ -13,6 +13,8 @@ void writeIntervention(const Intervention& intervention, StateWriter& out);
 Intervention readIntervention(StateReader& in);
 
 /// The objects that a state has instead of those of its model, if it has any.
+/// @throws InvalidContents unless it is a robot that is added
+AddRobot readAddition(StateReader& in);
 void writeObjects(const ChangedObjects& objects, StateWriter& out);
 /// @throws InvalidContents
 ChangedObjects readObjects(StateReader& in);

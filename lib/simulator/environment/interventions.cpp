@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error_list.h"
 #include "base/log.h"
 #include "base/nearest_name.h"
 #include "base/text_table.h"
@@ -54,6 +55,28 @@ struct Environment::Impl::ApplyChange {
     }
     if (const auto fault = placeFault(add.object, kNoBody); !fault.empty()) return fault;
     of.setObjects(withChange(objects(), add), add.object.name);
+    return {};
+  }
+
+  std::string operator()(const AddRobot& add) const {
+    if (is_checked) {
+      if (auto fault = nameFault(add); !fault.empty()) return fault;
+    }
+    std::shared_ptr<const Model> larger;
+    try {
+      larger = of.modelWith(of.model->additions.with(add));
+    } catch (const ConfigError& error) {
+      return error.errors().front();
+    }
+    const FleetRobot& robot = larger->fleet.robots.back();
+    if (is_checked) {
+      const Solid disc{Circle{{add.world_from_robot.x, add.world_from_robot.y}, robot.info.radius_m},
+                       robot.body.heights()};
+      if (!of.model->world.bounds.covers(boundsOf(disc.outline))) return notOnSurface(add.name);
+      if (auto fault = overlapFault(add.name, disc, kNoBody); !fault.empty()) return fault;
+      if (auto fault = of.robot_check ? of.robot_check(robot) : std::string(); !fault.empty()) return fault;
+    }
+    of.addRobot(std::move(larger));
     return {};
   }
 
@@ -124,6 +147,22 @@ struct Environment::Impl::ApplyChange {
                                     [&](const WorldObject& object) { return object.name == name; });
     if (found == objects().end()) return std::nullopt;
     return static_cast<std::size_t>(found - objects().begin());
+  }
+
+  /// What is wrong with the names and the number of robots.
+  std::string nameFault(const AddRobot& add) const {
+    if (of.is_shared) {
+      return "a run that several processes or ranks share cannot have further robots; run it in one process, or give " +
+             ("the world the robot " + inQuotes(add.name)) + " and take it out until it is needed";
+    }
+    if (objectNamed(add.name) || robotNamed(add.name)) {
+      return "there is a robot or an object named " + inQuotes(add.name) + " already; use another name";
+    }
+    if (!add.neighbour.empty() && !robotNamed(add.neighbour)) return unknown(add.neighbour, "a robot");
+    if (of.state.additions.size() >= kAddedRobotsMax) {
+      return withCommas(kAddedRobotsMax) + " robots have been added to the run, which is the most; give the world more";
+    }
+    return {};
   }
 
   /// Changes an object.

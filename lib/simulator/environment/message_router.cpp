@@ -49,7 +49,15 @@ struct MessageRouter::Delivery {
 };
 
 MessageRouter::MessageRouter(std::vector<std::string> names, const Communication& communication)
-    : names_(std::move(names)), communication_(communication), limits_(names_.size()) {
+    : communication_(communication) {
+  setRobots(std::move(names));
+}
+
+void MessageRouter::setRobots(std::vector<std::string> names) {
+  names_ = std::move(names);
+  limits_.resize(names_.size());
+  receivers_.clear();
+  channel_.setRobots(names_.size());
   by_name_.resize(names_.size());
   std::iota(by_name_.begin(), by_name_.end(), 0U);
   std::sort(by_name_.begin(), by_name_.end(), [&](auto a, auto b) { return names_[a] < names_[b]; });

@@ -80,6 +80,9 @@ class MessageRouter {
   MessageRouter(const MessageRouter&) = delete;  // channel_ refers to communication_
   MessageRouter& operator=(const MessageRouter&) = delete;
 
+  /// Replaces the robots; those with the same index remain the same.
+  void setRobots(std::vector<std::string> names);
+
   /// Replaces limits and errors of the radio; messages in flight arrive when they were to arrive before.
   void setCommunication(const Communication& communication) { communication_ = communication; }
 
@@ -142,7 +145,7 @@ class MessageRouter {
   std::vector<std::string> names_;
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
-  RadioChannel channel_{communication_, names_.size()};
+  RadioChannel channel_{communication_};
   std::vector<InboxLimit> limits_;  ///< by receiver; unused ones between two calls of deliver()
   std::vector<std::uint32_t> receivers_;
   std::vector<std::uint32_t> near_;  ///< memory of transmitToAll()

@@ -1,8 +1,10 @@
 #include "environment/model.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/digest.h"
+#include "robots/added_robot.h"
 
 namespace robosim {
 namespace {
@@ -114,15 +116,41 @@ void add(Digest& digest, const FleetRobot& robot) {
   }
 }
 
-}  // namespace
-
-std::uint64_t digestOf(const Model& model) {
+/// @param robots number of the first robots of the fleet that are covered
+std::uint64_t digestOfFirst(std::size_t robots, const Model& model) {
   Digest digest;
   digest.add(model.seed);
   digest.add(model.period_s);
   add(digest, model.world);
-  digest.add(model.fleet.robots.size());
-  for (const auto& robot : model.fleet.robots) add(digest, robot);
+  digest.add(robots);
+  for (std::size_t i = 0; i < robots; ++i) add(digest, model.fleet.robots[i]);
+  return digest.value();
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> withAdditions(const Model& model, const RobotAdditions& additions) {
+  auto other = std::make_shared<Model>(model);
+  const auto before = model.additions.list(), after = additions.list();
+  const auto differs = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
+  auto& robots = other->fleet.robots;
+  robots.erase(robots.end() - (before.end() - differs.first), robots.end());
+  for (auto added = differs.second; added != after.end(); ++added) {
+    other->fleet = withRobot(std::move(other->fleet), *added);
+  }
+  other->additions = additions;
+  return other;
+}
+
+std::uint64_t digestOf(const Model& model) { return digestOfFirst(model.fleet.robots.size(), model); }
+
+std::uint64_t digestOfStart(const Model& model) {
+  return digestOfFirst(model.fleet.robots.size() - model.additions.size(), model);
+}
+
+std::uint64_t digestOf(const FleetRobot& robot) {
+  Digest digest;
+  add(digest, robot);
   return digest.value();
 }
 

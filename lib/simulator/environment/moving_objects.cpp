@@ -38,7 +38,7 @@ ObjectMover Environment::Impl::moverOfObjects() const {
   for (const auto& object : objects()) {
     if (object.conveyor) belts.push_back(Belt::from(object));
   }
-  return {bodies.movable(), std::move(belts), ofRobots(fleet, pushingDiscOf), model->world.bounds};
+  return {bodies.movable(), std::move(belts), ofRobots(fleet(), pushingDiscOf), model->world.bounds};
 }
 
 void Environment::Impl::moveObjects() {

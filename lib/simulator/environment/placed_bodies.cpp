@@ -5,7 +5,7 @@
 namespace robosim {
 
 PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& objects)
-    : model_(model), scene_({}, 0, model.world.bounds), frames_(model.fleet.robots.size()) {
+    : model_(&model), scene_({}, 0, model.world.bounds), frames_(model.fleet.robots.size()) {
   robot_bodies_.reserve(model.fleet.robots.size());
   for (const auto& robot : model.fleet.robots) {
     CompactBody& compact = robot_bodies_.emplace_back(CompactBody{{}, robot.body.heights()});
@@ -30,8 +30,8 @@ void PlacedBodies::listObjects(const std::vector<WorldObject>& objects) {
   for (const auto& object : objects) {
     if (!object.isStationary()) movable_.push_back(MovableBody::from(object));
   }
-  const std::size_t robots = model_.fleet.robots.size();
-  scene_ = Scene(stationarySolids(objects, model_.world.maps), robots + movable_.size(), model_.world.bounds);
+  const std::size_t robots = model_->fleet.robots.size();
+  scene_ = Scene(stationarySolids(objects, model_->world.maps), robots + movable_.size(), model_->world.bounds);
   body_of_object_.clear();
   std::uint32_t stationary = 0;
   std::size_t moving = robots;
@@ -52,7 +52,7 @@ bool PlacedBodies::isRobot(BodyId body) const {
 }
 
 void PlacedBodies::addProperties(const std::vector<WorldObject>& objects) {
-  const auto& robots = model_.fleet.robots;
+  const auto& robots = model_->fleet.robots;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const BodyId id = body_of_object_[i];
     const auto& pose = objects[i].body.world_from_body;
@@ -101,7 +101,7 @@ void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motio
     }
     const auto& pose = state.world_from_robot[robot];
     source.center = {pose.x, pose.y};
-    source.heat_celsius = state.isAbsent(robot) ? 0 : model_.fleet.robots[robot].body.heat_celsius;
+    source.heat_celsius = state.isAbsent(robot) ? 0 : model_->fleet.robots[robot].body.heat_celsius;
   }
 }
 
@@ -110,13 +110,13 @@ Solid PlacedBodies::solidOf(std::size_t robot, const mrpt::math::TPose2D& world_
   if (compact.disc_radius_m) {
     return {Circle{{world_from_robot.x, world_from_robot.y}, *compact.disc_radius_m}, compact.heights};
   }
-  Body body = model_.fleet.robots[robot].body;
+  Body body = model_->fleet.robots[robot].body;
   body.world_from_body = world_from_robot;
   return body.solid();
 }
 
 Solid PlacedBodies::discOf(std::size_t robot, const mrpt::math::TPoint2D& center) const {
-  return {Circle{center, model_.fleet.robots[robot].info.radius_m}, robot_bodies_[robot].heights};
+  return {Circle{center, model_->fleet.robots[robot].info.radius_m}, robot_bodies_[robot].heights};
 }
 
 BodyId PlacedBodies::overlapped(const Solid& solid, BodyId except, Among among) const {
@@ -150,7 +150,7 @@ Snapshot PlacedBodies::snapshot(const State& state, std::span<const Path> paths,
           .seed = state.seed,
           .images = images,
           .objects = state.objects,
-          .surface = model_.world.bounds,
+          .surface = model_->world.bounds,
           .paths = paths,
           .driven_m = state.driven_m,
           .reflectivity = reflectivity_,

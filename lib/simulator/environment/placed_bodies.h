@@ -18,6 +18,7 @@ namespace robosim {
 /// The bodies of a model at the poses of a state: their shapes as a Scene, their heat and their reflectivity.
 class PlacedBodies {
  public:
+  /// @param model must outlive this object
   PlacedBodies(const Model& model, const std::vector<WorldObject>& objects);
 
   /// Replaces the objects, in time linear in the size of the world. place() must follow.
@@ -60,7 +61,7 @@ class PlacedBodies {
   void addReflectivity(const Body& body, BodyId id);
   Solid solidOf(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) const;
 
-  const Model& model_;
+  const Model* model_;
   Scene scene_;
   std::vector<CompactBody> robot_bodies_;
   std::vector<MovableBody> movable_;

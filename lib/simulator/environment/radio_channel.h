@@ -33,6 +33,9 @@ class RadioChannel {
   explicit RadioChannel(const Communication& communication, std::size_t robots = kAllMoving)
       : communication_(communication), robots_(robots) {}
 
+  /// Replaces the number of robots.
+  void setRobots(std::size_t robots) { robots_ = robots; }
+
   /// A message between two robots.
   struct Way {
     std::uint32_t from = 0, to = 0;

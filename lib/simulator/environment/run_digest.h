@@ -21,6 +21,8 @@ class RunDigest {
  public:
   RunDigest() = default;
   explicit RunDigest(std::size_t robots);
+  /// Continues with another number of robots, of which the first remain the same.
+  void setRobots(std::size_t robots) { of_chunk_.resize(chunkCountOf(robots)); }
   /// Adds the result of a step; `state` may own this digest.
   void add(const State& state, const ParallelExecutor& workers);
   /// The same for some robots, which are whole chunks.

@@ -64,6 +64,7 @@ State initialState(const Model& model, RobotRange with_readings) {
   state.time = {0, model.period_s};
   state.seed = model.seed;
   state.digest = RunDigest(n);
+  state.additions = model.additions;
   forArrays(state, [n](auto& array) { array.resize(n); });
   state.object_speeds.resize(movingObjects(model.world.objects).size());
   for (std::size_t i = 0; i < n; ++i) {
@@ -80,6 +81,18 @@ std::vector<Measurement> blankMeasurements(const RobotModel& model) {
   measurements.reserve(model.sensors.size());
   for (const auto& sensor : model.sensors) measurements.push_back(sensor->blank());
   return measurements;
+}
+
+void addLastRobot(State& state, const Model& model) {
+  const std::size_t i = model.fleet.robots.size() - 1;
+  forArrays(state, [i](auto& array) { array.resize(i + 1); });
+  if (state.digest) state.digest->setRobots(i + 1);
+  state.world_from_robot[i] = model.fleet.robots[i].world_from_start;
+  Readings& readings = state.readings[i];
+  readings.time = state.time;
+  readings.measurements = blankMeasurements(*model.fleet.robots[i].model);
+  if (state.won) readings.winner = model.fleet.robots[state.won->robot].info.name;
+  state.additions = model.additions;
 }
 
 void resetRobot(State& state, std::size_t robot, Activity activity, const RobotModel& model) {

@@ -17,6 +17,7 @@
 #include "sensors/sensor.h"
 #include "world/changed_objects.h"
 #include "world/intervention.h"
+#include "world/robot_additions.h"
 
 namespace robosim {
 
@@ -72,6 +73,7 @@ struct State {
   std::vector<ObjectSpeed> object_speeds;      ///< of the movable objects, in their order
   std::optional<Communication> communication;  ///< instead of World::communication
   std::optional<RunEnd> ended;
+  RobotAdditions additions;                 ///< the last robots of the arrays: those of the Model
   std::uint64_t interventions_applied = 0;  ///< so far
   /// Those of the last step and those since, in the order in which they were applied.
   std::vector<AppliedIntervention> interventions;
@@ -103,6 +105,10 @@ State initialState(const Model&, RobotRange with_readings);
 
 /// Of a robot that has not measured yet.
 std::vector<Measurement> blankMeasurements(const RobotModel&);
+
+/// Extends the state by the robot that is the last of a model, at its start, active and at rest. It has not measured.
+/// @pre the state has the model's other robots
+void addLastRobot(State& state, const Model& model);
 
 /// Makes a robot one that has neither moved nor measured.
 void resetRobot(State& state, std::size_t robot, Activity activity, const RobotModel& model);

@@ -4,11 +4,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <type_traits>
 #include <utility>
 
 #include "base/digest.h"
 #include "base/error_list.h"
+#include "environment/environment.h"
 #include "environment/intervention_bytes.h"
 #include "environment/measurement_bytes.h"
 #include "environment/state_stream.h"
@@ -21,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 8;  ///< since 8, with grippers
+constexpr std::uint32_t kVersion = 9;  ///< since 9, with added robots
 constexpr std::size_t kSizeAt = 20;    ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
@@ -265,7 +267,48 @@ void readOutcome(const Model& model, StateReader& in, State& state) {
   }
 }
 
-State readContents(const Model& model, StateReader in) {
+/// Writes the robots that were added, and the hash of each, which detects that its type is another now.
+void writeAdditions(const Model& model, StateWriter& out) {
+  const auto added = model.additions.list();
+  out.addNumber(static_cast<std::uint32_t>(added.size()));
+  const auto* robot = model.fleet.robots.data() + (model.fleet.robots.size() - added.size());
+  for (const AddRobot& one : added) {
+    out.addText(changeText(one));
+    out.addNumber(digestOf(*robot++));
+  }
+}
+
+/// The model of the state: the given one with the robots that were added.
+std::shared_ptr<const Model> readAdditions(const Model& model, StateReader& in) {
+  const auto count = in.takeNumber<std::uint32_t>();
+  requireContents(count <= kAddedRobotsMax, "too many robots were added");
+  if (count == 0) return withAdditions(model, {});
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < model.fleet.robots.size() - model.additions.size(); ++i) {
+    names.insert(model.fleet.robots[i].info.name);
+  }
+  std::vector<AddRobot> added;
+  std::vector<std::uint64_t> digests;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    added.push_back(readAddition(in));
+    requireContents(names.insert(added.back().name).second, "an added robot has the name of another");
+    digests.push_back(in.takeNumber<std::uint64_t>());
+  }
+  const auto grown = withAdditions(model, RobotAdditions(std::move(added)));
+  const auto* robot = grown->fleet.robots.data() + (grown->fleet.robots.size() - count);
+  for (const std::uint64_t digest : digests) {
+    if (digestOf(*robot) != digest) {
+      throw ConfigError("the robot type " + robot->info.model +
+                        " is not that of the run that saved the state; use its " + "robot types");
+    }
+    ++robot;
+  }
+  return grown;
+}
+
+State readContents(const Model& start, StateReader in) {
+  const auto grown = readAdditions(start, in);
+  const Model& model = *grown;
   State state = initialState(model);
   const std::size_t robots = model.fleet.robots.size();
   state.time.step = in.takeNumber<std::uint64_t>();
@@ -297,7 +340,8 @@ std::string toBytes(const Model& model, const State& state) {
   out.addBytes(kMagic.data(), kMagic.size());
   out.addNumber(kVersion);
   out.addNumber(std::uint64_t{0});  // the size, known at the end
-  out.addNumber(digestOf(model));
+  out.addNumber(digestOfStart(model));
+  writeAdditions(model, out);
   out.addNumber(state.time.step);
   out.addNumber(state.seed);
   writeInterventions(state, out);
@@ -333,7 +377,7 @@ State stateFromBytes(const Model& model, std::string_view bytes) {
     throw ConfigError("the saved state has version " + std::to_string(version) + " of the format, and this program " +
                       "reads version " + std::to_string(kVersion) + "; use the version of RoboSim that saved it");
   }
-  if (numberAt<std::uint64_t>(bytes, kSizeAt + sizeof size) != digestOf(model)) {
+  if (numberAt<std::uint64_t>(bytes, kSizeAt + sizeof size) != digestOfStart(model)) {
     throw ConfigError(
         "the saved state belongs to another world, other robots or sensors, or another seed or time step; "
         "load it with those of the run that saved it");

@@ -111,9 +111,9 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   EXPECT_EQ(errorOf(model, damaged),
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
-  newer[16] = 9;
+  newer[16] = 10;
   EXPECT_EQ(errorOf(model, sealed(newer)),
-            "the saved state has version 9 of the format, and this program reads version 8; use the version of RoboSim "
+            "the saved state has version 10 of the format, and this program reads version 9; use the version of RoboSim "
             "that saved it");
   Model other = model;
   other.seed = 2;
@@ -172,14 +172,21 @@ TEST(StateBytes, OfAnotherModelAreRefused) {
     change(other);
     return errorOf(other, saved.bytes).starts_with("the saved state belongs to another world");
   };
+  const auto is_refused_in = [&](const std::function<void(World&)>& change) {
+    World other = saved.model->world;
+    change(other);
+    return errorOf(Model(other, saved.model->fleet), saved.bytes)
+        .starts_with("the saved state belongs to another world");
+  };
   EXPECT_FALSE(is_refused_after([](Model&) {}));
+  EXPECT_FALSE(is_refused_in([](World&) {}));
   EXPECT_TRUE(is_refused_after([](Model& m) { m.period_s = 0.2; }));
-  EXPECT_TRUE(is_refused_after([](Model& m) { m.world.bounds.x_max += 1; }));
-  EXPECT_TRUE(is_refused_after([](Model& m) { m.world.win_distance_m += 1; }));
-  EXPECT_TRUE(is_refused_after([](Model& m) { m.world.communication.range_m = 1; }));
-  EXPECT_TRUE(is_refused_after([](Model& m) { m.world.objects[0].body.heat_celsius += 1; }));
-  EXPECT_TRUE(is_refused_after([](Model& m) { m.world.objects[0].body.world_from_body.x += 1e-9; }));
-  EXPECT_TRUE(is_refused_after([](Model& m) { addWall(m.world, 2, 2, 0.1, 0.1); }));
+  EXPECT_TRUE(is_refused_in([](World& w) { w.bounds.x_max += 1; }));
+  EXPECT_TRUE(is_refused_in([](World& w) { w.win_distance_m += 1; }));
+  EXPECT_TRUE(is_refused_in([](World& w) { w.communication.range_m = 1; }));
+  EXPECT_TRUE(is_refused_in([](World& w) { w.objects[0].body.heat_celsius += 1; }));
+  EXPECT_TRUE(is_refused_in([](World& w) { w.objects[0].body.world_from_body.x += 1e-9; }));
+  EXPECT_TRUE(is_refused_in([](World& w) { addWall(w, 2, 2, 0.1, 0.1); }));
   EXPECT_TRUE(is_refused_after([](Model& m) { m.fleet.robots[1].info.name = "c"; }));
   EXPECT_TRUE(is_refused_after([](Model& m) { m.fleet.robots[1].info.limits.accel_mps2 *= 2; }));
   EXPECT_TRUE(is_refused_after([](Model& m) { m.fleet.robots.pop_back(); }));

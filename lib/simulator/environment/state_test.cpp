@@ -195,6 +195,9 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { s.objects = ChangedObjects(std::vector<WorldObject>()); },
       [](State& s) { s.communication = Communication{}; },
       [](State& s) {
+        s.additions = s.additions.with({"new", "disc", {}});
+      },
+      [](State& s) {
         s.ended = RunEnd{"goal", "", 1};
       },
       [](State& s) { ++s.stalls; },

@@ -60,8 +60,8 @@ std::shared_ptr<const BatchWorld> makeBatchWorld(LoadedWorld loaded, const Batch
   }
   if (options.start_distance_m) loaded.world.start_distance_m = options.start_distance_m;
   if (options.has_random_starts) world->random_starts.emplace(loaded.world, loaded.fleet);
-  world->model = std::make_shared<const Model>(
-      Model{std::move(loaded.world), std::move(loaded.fleet), options.seed, options.period_s});
+  world->model =
+      std::make_shared<const Model>(std::move(loaded.world), std::move(loaded.fleet), options.seed, options.period_s);
   world->start = initialState(*world->model);
   if (!options.has_digests) world->start.digest.reset();
   return world;

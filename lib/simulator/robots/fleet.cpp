@@ -8,6 +8,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include "base/log.h"
+#include "robots/ray_budget.h"
 #include "robots/robot_colors.h"
 #include "robots/robot_model_cache.h"
 #include "robots/scatter.h"
@@ -18,31 +19,6 @@
 
 namespace robosim {
 namespace {
-
-/// Sums the beams and rays that determine a fleet's memory.
-class RayBudget {
- public:
-  /// Adds a robot.
-  /// @return which limit is exceeded; empty if none
-  std::string add(const std::shared_ptr<const RobotModel>& model) {
-    auto [counted, is_new] = models_.try_emplace(model);
-    if (is_new) {
-      for (const auto& sensor : model->sensors) {
-        counted->second += sensor->info().beams.size();
-        model_rays_ += sensor->rayCount();
-      }
-    }
-    beams_ += counted->second;
-    if (beams_ > kWorldBeamsMax) return "the robots have more than " + std::to_string(kWorldBeamsMax) + " beams";
-    if (model_rays_ <= kWorldModelRaysMax) return "";
-    return "the sensors of the " + std::to_string(models_.size()) + " kinds of robots have more than " +
-           std::to_string(kWorldModelRaysMax) + " rays";
-  }
-
- private:
-  std::unordered_map<std::shared_ptr<const RobotModel>, std::size_t> models_;  ///< with the number of beams of each
-  std::size_t beams_ = 0, model_rays_ = 0;
-};
 
 /// Checks each controller once, since many robots have the same.
 class ControllerFaults {
@@ -118,7 +94,21 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
     fleet.robots.push_back(made(placement, std::move(model)));
     starts.push_back(startOf(placement, fleet.robots.back()));
   }
-  if (fleet.robots.size() == world.robots.size()) setRobotColors(world, fleet);
+  const bool has_all = fleet.robots.size() == world.robots.size();
+  for (const TimedChange& timed : world.timeline) {
+    const auto* added = std::get_if<AddRobot>(&timed.change);
+    if (!added || !has_all) continue;
+    if (const std::string fault = faults_of_controllers.of(added->controller); !fault.empty()) {
+      errors.add(world.fileOf(timed.line, world_file), timed.line.number, "robot '" + added->name + "': " + fault);
+    }
+    RobotPlacement placement;
+    placement.name = added->name;
+    placement.model = added->model;
+    placement.line = timed.line;
+    models.modelFor(placement);
+  }
+  fleet.known_types = std::make_shared<const KnownTypes>(KnownTypes{types, world_file, models.modelsOfTypes()});
+  if (has_all) setRobotColors(world, fleet);
   if (!are_poses_valid) return fleet;
   checkStarts(world, starts, world_file, errors);
   checkMovableObjects(world, world_file, errors);
@@ -144,6 +134,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
                                 " robots cannot have the models of " + std::to_string(alike.robots.size()));
   }
   Fleet fleet;
+  fleet.known_types = alike.known_types;
   std::vector<RobotStart> starts;
   fleet.robots.reserve(world.robots.size());
   starts.reserve(world.robots.size());

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,9 +23,18 @@ struct FleetRobot {
   std::string controller;  ///< as TypeChoice::text(); empty: the program's default
 };
 
+/// Robot types of which robots can be added to a fleet.
+struct KnownTypes {
+  RobotTypes types;
+  std::string world_file;  ///< further types are in its robotTypeFolders()
+  /// Models of types that were read: robots of a type share one.
+  std::map<std::string, std::shared_ptr<const RobotModel>> models;
+};
+
 /// Robots of a world, in the world's order.
 struct Fleet {
   std::vector<FleetRobot> robots;
+  std::shared_ptr<const KnownTypes> known_types = {};  ///< null: none
 };
 
 /// @name Limits over all robots of a world, which bound the memory of a run
@@ -36,10 +46,10 @@ constexpr std::size_t kWorldModelRaysMax = 2'000'000;  ///< Sensor::rayCount() o
 /// Checks a controller of a world file, given as TypeChoice::text(). @throws ConfigError
 using ControllerCheck = std::function<void(const std::string& controller)>;
 
-/// Makes the model of each placed robot and checks its start. Adds to `errors`: unknown models, faulty sensors,
-/// controllers that `check_controller` rejects (null accepts all), robots outside the bounds, robots that overlap an
-/// object or another robot, and the first robot that exceeds the limit of beams or rays. `world_file` names the file in
-/// errors.
+/// Makes the model of each placed robot, and of each that the world's timeline adds, and checks its start. Adds to
+/// `errors`: unknown models, faulty sensors, controllers that `check_controller` rejects (null accepts all), robots
+/// outside the bounds, robots that overlap an object or another robot, and the first robot that exceeds the limit of
+/// beams or rays. `world_file` names the file in errors.
 Fleet buildFleet(const World&, const std::string& world_file, const RobotTypes& types,
                  const ControllerCheck& check_controller, ErrorList& errors);
 

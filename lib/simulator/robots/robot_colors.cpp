@@ -47,4 +47,16 @@ void setRobotColors(const World& world, Fleet& fleet) {
   }
 }
 
+void setColorOfLast(Fleet& fleet, const std::optional<std::array<float, 3>>& own) {
+  FleetRobot& last = fleet.robots.back();
+  auto& color = last.body.color;
+  const auto has_color = [&](const FleetRobot& other) { return &other != &last && other.body.color == color; };
+  if (own) {
+    color = *own;
+  } else if (std::any_of(fleet.robots.begin(), fleet.robots.end(), has_color)) {
+    color = paletteColor(fleet.robots.size() - 1);
+  }
+  last.info.color_rgb = rgbOf(color);
+}
+
 }  // namespace robosim

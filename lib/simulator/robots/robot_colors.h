@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "robots/fleet.h"
 
@@ -15,5 +16,9 @@ std::array<float, 3> paletteColor(std::size_t robot);
 /// body of 2005 in the default grey counts as one without a colour. Sets FleetRobot::body.color
 /// and info.color_rgb.
 void setRobotColors(const World& world, Fleet& fleet);
+
+/// Decides the colour of the last robot of a fleet, which has been added to it, as above; the others keep theirs.
+/// @param own the colour given for it
+void setColorOfLast(Fleet& fleet, const std::optional<std::array<float, 3>>& own);
 
 }  // namespace robosim

@@ -61,6 +61,14 @@ std::shared_ptr<const RobotModel> RobotModelCache::modelFor(const RobotPlacement
   return model;
 }
 
+std::map<std::string, std::shared_ptr<const RobotModel>> RobotModelCache::modelsOfTypes() const {
+  std::map<std::string, std::shared_ptr<const RobotModel>> models;
+  for (const auto& [name, type] : types_) {
+    if (type.model) models[name] = type.model;
+  }
+  return models;
+}
+
 const RobotModelCache::Type* RobotModelCache::typeOf(const RobotPlacement& robot) {
   const auto found = types_.find(robot.model);
   if (found == types_.end()) {

@@ -19,6 +19,9 @@ class RobotModelCache {
   /// @param world_file names the world's file in errors. World, types and errors must outlive this object.
   RobotModelCache(const World& world, std::string world_file, const RobotTypes& types, ErrorList& errors);
 
+  /// The models of all types read so far, without overrides, by type.
+  std::map<std::string, std::shared_ptr<const RobotModel>> modelsOfTypes() const;
+
   /// The robot's model; null, with an error added, for an unknown or unreadable type.
   std::shared_ptr<const RobotModel> modelFor(const RobotPlacement&);
 

@@ -34,6 +34,13 @@ struct NameCheck {
     names.objects.insert(add.object.name);
     return "";
   }
+  std::string operator()(const AddRobot& add) const {
+    if (names.has(add.name)) return "there is a robot or an object named '" + add.name + "' already; use another name";
+    if (!add.neighbour.empty() && !names.robots.contains(add.neighbour))
+      return "neighbour " + names.unknown(add.neighbour, "a robot");
+    names.robots.insert(add.name);
+    return "";
+  }
   std::string operator()(const RemoveBody& remove) const {
     if (names.objects.erase(remove.name) > 0 || names.robots.contains(remove.name)) return "";
     return names.unknown(remove.name, "a robot or an object");

@@ -36,14 +36,17 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
     for (const auto& warning : map.plan.warnings) logWarning("", map.file + ": " + warning);
   }
   const RobotTypes known = robotTypesIn(robotTypeFolders(file));
-  const auto keep_type_of = [&](const RobotPlacement& robot) {
-    const auto type = known.find(robot.model);
-    if (type == known.end() || source.robot_types.count(robot.model)) return;
-    source.robot_types[robot.model] = {type->second.file, resolveIncludes(type->second)};
+  const auto keep_type = [&](const std::string& model) {
+    const auto type = known.find(model);
+    if (type == known.end() || source.robot_types.count(model)) return;
+    source.robot_types[model] = {type->second.file, resolveIncludes(type->second)};
   };
-  for (const auto& robot : world.robots) keep_type_of(robot);
+  for (const auto& robot : world.robots) keep_type(robot.model);
   for (const auto& scatter : world.scatters) {
-    if (const auto* robot = std::get_if<RobotPlacement>(&scatter.copied)) keep_type_of(*robot);
+    if (const auto* robot = std::get_if<RobotPlacement>(&scatter.copied)) keep_type(robot->model);
+  }
+  for (const auto& timed : world.timeline) {
+    if (const auto* robot = std::get_if<AddRobot>(&timed.change)) keep_type(robot->model);
   }
   return source;
 }

@@ -20,6 +20,7 @@ struct ObjectChange {
     pose = {place.x_m, place.y_m, place.heading_rad.value_or(pose.phi)};
   }
   void operator()(const AddObject& add) const { objects.push_back(add.object); }
+  void operator()(const AddRobot&) const {}
   void operator()(const RemoveBody& remove) const {
     std::erase_if(objects, [&](const WorldObject& object) { return object.name == remove.name; });
   }

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "base/error_list.h"
+#include "base/label.h"
 #include "base/xml_parser.h"
 #include "world/body_xml.h"
+#include "world/controller_xml.h"
 
 namespace robosim {
 namespace {
@@ -41,11 +43,37 @@ void write(const PlaceBody& place, double unit_m, XmlElement& element) {
   if (place.heading_rad) element.attributes.emplace_back("direction", toText(*place.heading_rad));
 }
 
-AddObject readAddObject(XmlReader& reader, double unit_m) {
+AddRobot readAddRobot(XmlReader& robot, double unit_m) {
+  AddRobot add;
+  add.name = robot.word("name");
+  if (const std::string fault = robotNameError(add.name); !fault.empty()) robot.errorAt("name", fault);
+  add.model = readText(robot, "model", robot.word("model"), kMaxNameBytes);
+  add.world_from_robot = readPose(robot, unit_m);
+  add.controller = readController(robot);
+  add.neighbour = readText(robot, "neighbour", robot.word("neighbour", ""), kMaxNameBytes);
+  add.color = readColor(robot);
+  robot.finish();
+  return add;
+}
+void write(const AddRobot& add, double unit_m, XmlElement& element) {
+  element.name = "add";
+  XmlElement& robot = element.add("robot");
+  robot.attributes = {{"model", add.model},
+                      {"name", add.name},
+                      {"x", toText(add.world_from_robot.x, unit_m)},
+                      {"y", toText(add.world_from_robot.y, unit_m)},
+                      {"direction", toText(add.world_from_robot.phi)}};
+  if (add.color) robot.attributes.emplace_back("color", colorText(*add.color));
+  if (!add.neighbour.empty()) robot.attributes.emplace_back("neighbour", add.neighbour);
+  if (!add.controller.empty()) writeController(add.controller, robot);
+}
+
+Change readAdd(XmlReader& reader, double unit_m) {
+  if (auto robot = reader.child("robot")) return readAddRobot(*robot, unit_m);
   AddObject add;
   auto solid = solidIn(reader);
   if (!solid) {
-    reader.error("contains neither a <cylinder> nor a <cube>; add one");
+    reader.error("contains neither a <cylinder> nor a <cube> nor a <robot>; add one");
     return add;
   }
   add.object.line = solid->line();
@@ -130,7 +158,7 @@ Change readAs(XmlReader& reader, double unit_m) {
 /// Readers of the changes, by the name of the element.
 const std::map<std::string, Change (*)(XmlReader&, double)>& readers() {
   static const std::map<std::string, Change (*)(XmlReader&, double)> all{
-      {"place", readAs<readPlaceBody>},         {"add", readAs<readAddObject>},
+      {"place", readAs<readPlaceBody>},         {"add", readAs<readAdd>},
       {"remove", readAs<readRemoveBody>},       {"change", readAs<readChangeObject>},
       {"activity", readAs<readChangeActivity>}, {"communication", readAs<readChangeRadio>},
       {"open", readAs<readOpenDoor>},           {"end", readAs<readEndRun>}};

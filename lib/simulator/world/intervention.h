@@ -35,6 +35,17 @@ struct AddObject {
   bool operator==(const AddObject&) const = default;
 };
 
+/// <add><robot>…: adds a robot of a type, active, at rest and with blank readings. It is the last in the world's order.
+struct AddRobot {
+  std::string name;
+  std::string model;  ///< robot type
+  mrpt::math::TPose2D world_from_robot;
+  std::string controller = {};                     ///< as TypeChoice::text(); empty: the program's default
+  std::string neighbour = {};                      ///< name of a robot; empty: none
+  std::optional<std::array<float, 3>> color = {};  ///< red, green, blue, each in [0, 1]; nullopt: chosen
+  bool operator==(const AddRobot&) const = default;
+};
+
 /// <remove name/>: takes an object out of the world for good, or a robot until it is placed again.
 struct RemoveBody {
   std::string name;
@@ -80,8 +91,8 @@ struct EndRun {
 };
 ///@}
 
-using Change =
-    std::variant<PlaceBody, AddObject, RemoveBody, ChangeObject, ChangeActivity, ChangeRadio, OpenDoor, EndRun>;
+using Change = std::variant<PlaceBody, AddObject, AddRobot, RemoveBody, ChangeObject, ChangeActivity, ChangeRadio,
+                            OpenDoor, EndRun>;
 
 /// A change, and who has made it: kWorldFileAuthor, "observer NAME", "Python", a user of a server.
 struct Intervention {

@@ -19,6 +19,9 @@ std::vector<Change> oneOfEachKind() {
   return {PlaceBody{"a", 1.0 / 3, -2},
           PlaceBody{"a", 1, 2, 0.1},
           AddObject{box},
+          AddRobot{"r2", "pioneer3dx", {1.0 / 3, -2, 0.7}},
+          AddRobot{"r2", "scout", {1, 2, -4}, "hold a=1 b=x", "r1", {{0.1f, 1, 0}}},
+          AddRobot{"r2", "scout", {}, "gold_finder"},
           RemoveBody{"a"},
           ChangeObject{"a", 20, {{1, 0.5f, 0.1f}}, 1.25, 0.9},
           ChangeObject{.name = "a", .reflectivity = 0},
@@ -45,11 +48,13 @@ TEST(Intervention, IsReadFromAWorldFileInItsUnitAndWrittenBack) {
   const std::string text =
       "<world unit_m=\"0.01\"><surface><size><xmin>0</xmin><xmax>900</xmax><ymin>0</ymin><ymax>900</ymax></size>"
       "</surface>\n<at time=\"20\"><place name=\"gold\" x=\"150\" y=\"25\"/><remove name=\"wall\"/></at>\n"
-      "<at time=\"5.5\"><change name=\"gold\" height=\"30\"/></at></world>";
+      "<at time=\"5.5\"><change name=\"gold\" height=\"30\"/>"
+      "<add><robot><model>scout</model><name>new</name><x>100</x><y>50</y></robot></add></at></world>";
   ErrorList errors;
   const World world = parseWorld(text, "a.xml", errors);
   EXPECT_EQ(errors.errors(), std::vector<std::string>{});
   const std::vector<TimedChange> expected{{5.5, ChangeObject{.name = "gold", .height_m = 0.3}, {}},
+                                          {5.5, AddRobot{"new", "scout", {1, 0.5, 0}}, {}},
                                           {20, PlaceBody{"gold", 1.5, 0.25}, {}},
                                           {20, RemoveBody{"wall"}, {}}};
   EXPECT_EQ(world.timeline, expected);
@@ -73,6 +78,9 @@ TEST(Intervention, OfAWorldFileThatIsFaultyIsReportedWithItsLine) {
       faults("<at time=\"1\"><shut name=\"door\"/></at>"),
       Faults{"a.xml:2: <shut>: is no change of a run; changes are: activity, add, change, communication, end, open, "
              "place, remove"});
+  EXPECT_EQ(faults("<at time=\"1\"><add><robot model=\"scout\" name=\"a/b\" x=\"1\" y=\"2\"/></add></at>").size(), 1u);
+  EXPECT_EQ(faults("<at time=\"1\"><add/></at>"),
+            Faults{"a.xml:2: <add>: contains neither a <cylinder> nor a <cube> nor a <robot>; add one"});
   EXPECT_EQ(faults("<at time=\"1\"><place name=\"a\" x=\"1\" y=\"2\" z=\"3\"/></at>"),
             Faults{"a.xml:2: <place>: unknown attribute z=\"3\"; accepted here are: name, x, y"});
 }

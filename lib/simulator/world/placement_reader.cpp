@@ -6,8 +6,8 @@
 
 #include "base/error_list.h"
 #include "base/label.h"
-#include "base/type_choice.h"
 #include "world/body_xml.h"
+#include "world/controller_xml.h"
 
 namespace robosim {
 
@@ -55,37 +55,15 @@ RobotPlacement PlacementReader::readRobot(XmlReader& robot, Place place) {
     for (const auto& sensor : sensors->all()) placement.sensors.push_back(sensor.element());
     sensors->finish();
   }
-  readController(robot, placement);
+  const auto& children = robot.element().children;
+  const auto controller = std::find_if(children.begin(), children.end(),
+                                       [](const XmlElement& child) { return child.name == "controller"; });
+  placement.controller_line = controller == children.end() ? robot.line() : controller->line;
+  placement.controller = readController(robot);
   placement.neighbour = robot.word("neighbour", "");
   if (!placement.neighbour.empty()) neighbours_.push_back({robot, place, placement.name, placement.neighbour});
   robot.finish();
   return placement;
-}
-
-/// <controller>NAME</controller>, or <controller name="NAME" PARAMETER="VALUE"…/>.
-void PlacementReader::readController(XmlReader& robot, RobotPlacement& placement) {
-  const auto& children = robot.element().children;
-  const auto found = std::find_if(children.begin(), children.end(),
-                                  [](const XmlElement& child) { return child.name == "controller"; });
-  placement.controller_line = found == children.end() ? robot.line() : found->line;
-  if (found == children.end() || found->attributes.empty()) {
-    placement.controller = robot.word("controller", "");
-    try {
-      if (!placement.controller.empty()) TypeChoice::parse(placement.controller);
-    } catch (const ConfigError& error) {
-      robot.errorAt("controller", error.what());
-    }
-    return;
-  }
-  XmlReader controller = *robot.child("controller");
-  TypeChoice choice{controller.word("name"), {}};
-  for (const auto& [parameter, value] : found->attributes) {
-    if (parameter == "name") continue;
-    choice.parameters.emplace_back(parameter, controller.word(parameter));
-    if (value.find_first_of(" \t\n") != std::string::npos) controller.errorAt(parameter, "must be a single number");
-  }
-  controller.finish();
-  placement.controller = choice.text();
 }
 
 /// A robot without a position gets the next start pose that a map gives.

@@ -40,7 +40,6 @@ class PlacementReader {
     std::string robot_name, name;
   };
 
-  void readController(XmlReader& robot, RobotPlacement& placement);
   mrpt::math::TPose2D readPlace(XmlReader& robot);
   std::string readName(XmlReader& reader);
   std::string readRobotName(XmlReader& reader, Place place);

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/type_choice.h"
 #include "world/body_xml.h"
+#include "world/controller_xml.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -107,18 +107,8 @@ class WorldWriter {
       if (robot.color) element.add("color", colorText(*robot.color));
     }
     addSensors(element, robot.sensors);
-    if (!robot.controller.empty()) addController(element, TypeChoice::parse(robot.controller));
+    if (!robot.controller.empty()) writeController(robot.controller, element);
     if (!robot.neighbour.empty()) element.add("neighbour", robot.neighbour);
-  }
-
-  void addController(XmlElement& robot, const TypeChoice& choice) const {
-    XmlElement& element = robot.add("controller");
-    if (choice.parameters.empty()) {
-      element.text = choice.name;
-      return;
-    }
-    element.attributes = choice.parameters;
-    element.attributes.insert(element.attributes.begin(), {"name", choice.name});
   }
 
   void addSensors(XmlElement& robot, const std::vector<XmlElement>& sensors) const {

@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <utility>
+
+#include "environment/environment_impl.h"
+
+namespace robosim {
+
+std::shared_ptr<const Model> Environment::Impl::modelWith(const RobotAdditions& additions) const {
+  const auto same =
+      std::find_if(models.begin(), models.end(), [&](const auto& one) { return one->additions == additions; });
+  return same == models.end() ? withAdditions(*model, additions) : *same;
+}
+
+void Environment::Impl::useModel(std::shared_ptr<const Model> other) {
+  model = std::move(other);
+  if (std::find(models.begin(), models.end(), model) == models.end()) models.push_back(model);
+  const std::size_t count = fleet().robots.size();
+  bodies = PlacedBodies(*model, objects());
+  move_authorisation = MoveAuthorisation(ofRobots(fleet(), moverOf), model->world.bounds);
+  object_mover = moverOfObjects();
+  message_router.setRobots(ofRobots(fleet(), nameOf));
+  robot_groups = RobotGroups(fleet(), model->period_s);
+  limits = ofRobots(fleet(), limitsOf);
+  known = KnownRobots(count);
+  counted = everyRobot();
+  paths.assign(count, Path());
+  antenna_z_m = ofRobots(fleet(), antennaOf);
+  noteGrippers();
+  share = {everyRobot(), everyRobot()};
+}
+
+void Environment::Impl::addRobot(std::shared_ptr<const Model> larger) {
+  addLastRobot(state, *larger);
+  useModel(std::move(larger));
+  state.all_halted_step.reset();
+  ++pose_changes;
+  noteState();
+  placeBodies();
+}
+
+void Environment::Impl::restoreWithOtherRobots(const State& saved) {
+  auto other = modelWith(saved.additions);
+  requireSameShape(saved, initialState(*other));
+  state = saved;
+  useModel(std::move(other));
+  noteState();
+  placeBodies();
+}
+
+}  // namespace robosim
