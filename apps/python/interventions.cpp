@@ -22,6 +22,7 @@ void intervene(Simulation& simulation, Change change) {
   requireUsable(simulation, SimulationAccess::structural);
   const std::string fault = simulation.environment().apply({"Python", std::move(change)});
   if (!fault.empty()) throw std::invalid_argument(fault);
+  simulation.followAdditions();
 }
 
 void add(Simulation& simulation, const py::str& name, const decltype(Body::shape)& shape,
@@ -89,6 +90,21 @@ void bindInterventions(py::class_<Simulation, std::shared_ptr<Simulation>>& simu
           py::arg("heat_celsius") = 0.0, py::arg("reflectivity") = kReflectivity, py::kw_only(),
           py::arg("mass_kg") = py::none(), py::arg("friction") = py::none(), py::arg("restitution") = py::none(),
           "Adds an upright box at x, y [m], whose length is along heading [rad]; otherwise as add_cylinder().")
+      .def(
+          "add_robot",
+          [](Simulation& of, const py::str& name, const py::str& model, double x, double y, double heading,
+             const py::str& controller, const py::str& neighbour, std::optional<Color> color) {
+            intervene(
+                of,
+                AddRobot{
+                    toBytes(name), toBytes(model), {x, y, heading}, toBytes(controller), toBytes(neighbour), color});
+          },
+          py::arg("name"), py::arg("model"), py::arg("x"), py::arg("y"), py::arg("heading") = 0.0, py::kw_only(),
+          py::arg("controller") = "", py::arg("neighbour") = "", py::arg("color") = py::none(),
+          "Adds a robot of a type at x, y [m], heading [rad], world frame; it is the last of `robots`, and acts from "
+          "the "
+          "next step.\n\ncontroller: its name; empty: that of the simulation. Arrays taken before keep their rows. "
+          "Raises ValueError if it would overlap something, the name is taken, or the type is unknown.")
       .def(
           "change",
           [](Simulation& of, const py::str& name, std::optional<double> heat_celsius, std::optional<Color> color,

@@ -81,6 +81,10 @@ Simulation::Simulation(std::shared_ptr<const PythonWorld> world, Options options
     if (elsewhere_[i]) robots[i].controller = "still";  // which requires no sensors, and is not made
     checkController(controllerOf(robots[i].controller, ""));
   }
+  options_.controller_of_added = options_.controller == kNoController ? "" : options_.controller;
+  options_.is_added_elsewhere = [has_none = options_.controller == kNoController](const FleetRobot& robot) {
+    return has_none && robot.controller.empty();
+  };
   options_.controller.clear();
   ErrorList errors;
   checkControllers(loaded, file, "", errors);
@@ -96,6 +100,7 @@ Simulation::Simulation(const Simulation& original, std::unique_ptr<LocalRun> run
       by_commands_(original.by_commands_),
       run_(std::move(run)),
       handles_(original.robotCount()),
+      added_names_(original.added_names_),
       index_(original.index_) {
   const py::object copy = py::module_::import("copy").attr("deepcopy");
   for (const auto& driven : original.of_python_) {
@@ -118,13 +123,39 @@ std::size_t Simulation::indexOf(const std::string& robot) const {
   const auto found = index_.find(robot);
   if (found != index_.end()) return found->second;
   throw std::invalid_argument("there is no robot '" + robot + "'; the world has " +
-                              listed(namesOf(world_->loaded.fleet)));
+                              listed(namesOf(run_ ? environment().fleet() : world_->loaded.fleet)));
 }
 
 Robot& Simulation::robot(std::size_t index) {
-  auto& handle = handles_.at(index);
+  if (index >= handles_.size()) throw std::invalid_argument("the robot is not in the state that was restored");
+  auto& handle = handles_[index];
   if (!handle) handle = std::make_unique<Handle>(environment(), index);
   return handle->robot;
+}
+
+void Simulation::followAdditions() {
+  run_->followAdditions();
+  const auto& robots = environment().fleet().robots;
+  const auto added = environment().state().additions.list();
+  const bool has_followed =
+      std::equal(added.begin(), added.end(), added_names_.begin(), added_names_.end(),
+                 [](const AddRobot& robot, const std::string& name) { return robot.name == name; });
+  if (has_followed) return;
+  const std::size_t start = robots.size() - added.size();
+  for (std::size_t i = start; i < handles_.size(); ++i) index_.erase(added_names_[i - start]);
+  added_names_.clear();
+  elsewhere_.resize(start);
+  by_commands_.resize(start);
+  handles_.resize(start);
+  for (std::size_t i = start; i < robots.size(); ++i) {
+    const bool is_driven = options_.is_added_elsewhere(robots[i]);
+    elsewhere_.push_back(is_driven ? 1 : 0);
+    by_commands_.push_back(is_driven ? 1 : 0);
+    handles_.emplace_back();
+    index_[robots[i].info.name] = i;
+    added_names_.push_back(robots[i].info.name);
+  }
+  layouts_.clear();
 }
 
 const std::vector<std::unique_ptr<ObservationLayout>>& Simulation::layoutsOf(const std::string& kind) {
@@ -177,6 +208,7 @@ std::uint64_t Simulation::advance(std::uint64_t steps_max) {
   std::uint64_t steps = 0;
   do {
     run_->step();
+    if (added_names_.size() != environment().state().additions.size()) followAdditions();  // of the world file
     ++steps;
     observe();
   } while (steps < steps_max && Clock::now() < end && !PythonReleased::isInterrupted());
@@ -193,6 +225,8 @@ void Simulation::observe() {
     messages = world_topics_->of(state.objects, notes, winner ? environment().fleet().robots[*winner].info.name : "",
                                  nanosecondsOf(state.time.seconds()));
   }
+  const auto& robots = environment().fleet().robots;
+  for (; recorded_robots_ < robots.size(); ++recorded_robots_) recording_->addRobot(robots[recorded_robots_].info);
   recording_->write(state.readings, state.world_from_robot, state.commands, notes, messages);
   is_new_recording_ = false;
 }
@@ -201,6 +235,7 @@ void Simulation::restore(std::string_view bytes) {
   if (recording_)
     throw std::invalid_argument("a recording cannot continue at another time; call stop_recording() before");
   environment().restore(stateFromBytes(*environment().model(), bytes));
+  followAdditions();
 }
 
 void Simulation::record(const std::filesystem::path& file) {
@@ -211,6 +246,7 @@ void Simulation::record(const std::filesystem::path& file) {
   RunNote note = makeNote(world_->source, *run_, options_, elsewhere_);
   recording_ =
       std::make_unique<RawlogWriter>(file, robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
+  recorded_robots_ = robots.size();
   world_topics_.reset();
   if (auto* const mcap = recording_->mcap()) {
     world_topics_ = std::make_unique<WorldTopics>(environment().model());

@@ -74,6 +74,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   /// How to write a robot's readings of a kind to an array; null for a robot without such a sensor.
   const std::vector<std::unique_ptr<ObservationLayout>>& layoutsOf(const std::string& kind);
 
+  /// After interventions and restored states, which may have added robots or have others.
+  void followAdditions();
   void restore(std::string_view bytes);  ///< @throws ConfigError
   /// Records the present state and all further steps. @throws ConfigError, RecordingError
   void record(const std::filesystem::path& file);
@@ -114,6 +116,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   std::unique_ptr<RawlogWriter> recording_;
   std::unique_ptr<RunNote> recorded_;          ///< the recording's note
   std::unique_ptr<WorldTopics> world_topics_;  ///< of a recording that is an MCAP file
+  std::size_t recorded_robots_ = 0;            ///< number of those that the recording has
+  std::vector<std::string> added_names_;       ///< of the robots that have been added, the last ones
   bool is_new_recording_ = false;              ///< no step of it has been written
   std::atomic<bool> engine_runs_ = false;
   bool is_in_step_ = false;

@@ -9,6 +9,7 @@
 #include "recording/recorded_step.h"
 #include "recording/unpacked_file.h"
 #include "run/outputs/intervention_note.h"
+#include "run/outputs/recorded_fleet.h"
 #include "run/outputs/run_note.h"
 #include "run/outputs/world_topics.h"
 
@@ -25,13 +26,19 @@ class McapSteps {
     }
     LoadedWorld loaded = loadWorld(note_.world, {});
     for (const auto& robot : loaded.fleet.robots) robots_.push_back(robot.info);
-    model_ = std::make_shared<const Model>(std::move(loaded.world), std::move(loaded.fleet), note_.seed, note_.period_s);
+    fleet_ = loaded.fleet;
+    model_ =
+        std::make_shared<const Model>(std::move(loaded.world), std::move(loaded.fleet), note_.seed, note_.period_s);
     topics_.emplace(model_);
   }
 
   McapExport write(const std::function<void(std::uint64_t)>& progress) {
     RawlogReader reader(rawlog_);
-    RecordedSteps steps(reader, robots_, note_.period_s);
+    RecordedSteps steps(reader, robots_, note_.period_s, Pictures::keep, [this](const std::string& comment) {
+      auto added = addRecordedRobot(comment, fleet_);
+      if (added) added_.push_back(*added);
+      return added;
+    });
     std::uint64_t count = 0;
     while (auto step = steps.next()) {
       if (!mcap_) open(*step);
@@ -83,6 +90,11 @@ class McapSteps {
     std::size_t index = 0;
     for (const auto& robot : step) {
       if (robot.is_missing) continue;
+      if (index == kept_.size()) {  // added in this step
+        mcap_->addRobot(added_.front(), time_ns);
+        kept_.emplace_back(added_.front().sensors);
+        added_.erase(added_.begin());
+      }
       KeptReadings& kept = kept_[index];
       if (isAbsent(robot)) {
         kept.forget();
@@ -109,6 +121,8 @@ class McapSteps {
   std::filesystem::path out_;
   RunNote note_;
   UnpackedFile bytes_;
+  Fleet fleet_;                   ///< of the recording as far as it has been read
+  std::vector<RobotInfo> added_;  ///< not yet written
   std::vector<RobotInfo> robots_;
   std::shared_ptr<const Model> model_;
   std::unique_ptr<McapRecording> mcap_;

@@ -13,6 +13,7 @@
 #include "run/json_text.h"
 #include "run/local_run.h"
 #include "run/outputs/intervention_note.h"
+#include "run/outputs/recorded_fleet.h"
 #include "run/outputs/run_note.h"
 #include "run/run_summary.h"
 #include "world/map_reader.h"
@@ -88,7 +89,9 @@ class RunAgain {
         source_(sourceFrom(arguments, note)),
         run_(worldWithControllers(source_, note), options(note, arguments.observers), elsewhere(note)),
         reader_(arguments.rawlog),
-        recorded_(reader_, robots(), note.period_s, Pictures::leave_out) {}
+        fleet_(run_.environment().fleet()),
+        recorded_(reader_, robots(), note.period_s, Pictures::leave_out,
+                  [this](const std::string& comment) { return addRecordedRobot(comment, fleet_); }) {}
 
   bool isDamaged() const { return reader_.isDamaged(); }
   std::vector<Metric> metrics() const { return run_.observers().metrics(); }
@@ -133,6 +136,8 @@ class RunAgain {
     RunOptions options;
     options.observers = observers;
     options.observers_supervise = false;
+    options.controller_of_added = note.controller_of_added;
+    options.is_added_elsewhere = [note](const FleetRobot& robot) { return isAddedElsewhere(note, robot); };
     options.environment.seed = note.seed;
     options.environment.period_s = note.period_s;
     return options;
@@ -199,8 +204,22 @@ class RunAgain {
     for (const auto& robot : run_.environment().fleet().robots) robots.push_back(robot.info);
     return robots;
   }
+  /// Whether another process has driven a robot.
+  bool isDrivenElsewhere(std::size_t robot) const {
+    if (robot < note_.controllers.size()) return note_.controllers[robot].empty();
+    return isAddedElsewhere(note_, run_.environment().fleet().robots[robot]);
+  }
+  static bool isAddedElsewhere(const RunNote& note, const FleetRobot& robot) {
+    const bool has_controller = !note.controller_of_added.empty() || !robot.controller.empty();
+    return note.added_elsewhere == RunNote::Elsewhere::all ||
+           (note.added_elsewhere == RunNote::Elsewhere::without_controller && !has_controller);
+  }
   std::optional<std::string> firstDifference(const std::vector<RecordedRobot>& recorded) const {
     const Environment& environment = run_.environment();
+    if (recorded.size() != environment.robotCount()) {
+      return "number of robots: recorded " + std::to_string(recorded.size()) + ", now " +
+             std::to_string(environment.robotCount());
+    }
     for (std::size_t i = 0; i < recorded.size(); ++i) {
       if (recorded[i].is_missing) continue;
       const auto& robot = environment.fleet().robots[i].info;
@@ -237,7 +256,7 @@ class RunAgain {
                      const Selected& is_selected) {
     Environment& environment = run_.environment();
     std::vector<std::size_t> absent, present;
-    for (std::size_t i = 0; i < next.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(next.size(), environment.robotCount()); ++i) {  // others will be added
       if (isMoved(i, made, is_selected)) continue;
       (isAbsent(next[i]) ? absent : present).push_back(i);
     }
@@ -261,8 +280,8 @@ class RunAgain {
     if (!made.empty()) enterAndLeave(next, made, isOfWorldFile);  // also those that were moved before or afterwards
     Environment& environment = run_.environment();
     const auto& robots = environment.fleet().robots;
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      if (note_.controllers[i].empty() && next[i].command) {
+    for (std::size_t i = 0; i < std::min(next.size(), robots.size()); ++i) {  // the step itself adds others
+      if (isDrivenElsewhere(i) && next[i].command) {
         environment.setCommand(i, *next[i].command);
         const Readings& answer = next[i].readings;
         const bool has_just_won =
@@ -273,7 +292,7 @@ class RunAgain {
         const auto sender = static_cast<std::size_t>(
             std::find_if(robots.begin(), robots.end(), [&](const auto& r) { return r.info.name == message.from; }) -
             robots.begin());
-        if (sender < robots.size() && note_.controllers[sender].empty()) {
+        if (sender < robots.size() && isDrivenElsewhere(sender)) {
           environment.receive(i, sender, message.text);  // the recording contains what the radio has delivered
         }
       }
@@ -310,6 +329,7 @@ class RunAgain {
   WorldSource source_;
   LocalRun run_;
   RawlogReader reader_;
+  Fleet fleet_;  ///< of the recording as far as it has been read
   RecordedSteps recorded_;
 };
 

@@ -18,14 +18,18 @@ RunTables::RunTables(std::vector<RecordingOutput> tables, const std::string& wor
   }
   std::vector<RobotInfo> robots;
   for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
+  robots_ = robots.size();
   folder_.emplace();
   recording_ =
       std::make_unique<RawlogWriter>(rawlog(), robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
 }
 
 void RunTables::observe(const Environment& environment) {
+  if (!recording_) return;
   const State& state = environment.state();
-  if (recording_) recording_->write(state.readings, state.world_from_robot, state.commands);
+  const auto& robots = environment.fleet().robots;
+  for (; robots_ < robots.size(); ++robots_) recording_->addRobot(robots[robots_].info);
+  recording_->write(state.readings, state.world_from_robot, state.commands);
 }
 
 void RunTables::finish() {

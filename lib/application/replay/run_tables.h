@@ -32,6 +32,7 @@ class RunTables {
   std::vector<RecordingOutput> tables_;
   std::optional<TemporaryDirectory> folder_;
   std::unique_ptr<RawlogWriter> recording_;
+  std::size_t robots_ = 0;  ///< number of those that it has
 };
 
 }  // namespace robosim

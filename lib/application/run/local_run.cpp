@@ -38,13 +38,13 @@ ImageSourceMaker& imageSourceMaker() {
   return maker;
 }
 
-std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world, const RunOptions& options) {
-  if (!options.takes_pictures || !hasCamera(world.fleet)) return nullptr;
+std::unique_ptr<ImageSource> imagesFor(const World& world, const Fleet& fleet, const RunOptions& options) {
+  if (!options.takes_pictures || !hasCamera(fleet)) return nullptr;
   if (!imageSourceMaker())
     throw ConfigError(
         "robots have cameras, but this program cannot render pictures; it must call "
         "setImageSourceMaker(makeOffscreenRenderer), of the library robosim::rendering");
-  auto images = imageSourceMaker()(world.world, world.fleet);
+  auto images = imageSourceMaker()(world, fleet);
   if (!options.pictures_on_request) return images;
   return std::make_unique<SelectedImages>(std::move(images));
 }
@@ -153,25 +153,17 @@ LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead
 
 LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere)
     : options_(options),
-      images_(imagesFor(world, options)),
+      images_(imagesFor(world.world, world.fleet, options)),
       selected_images_(options.pictures_on_request ? static_cast<SelectedImages*>(images_.get()) : nullptr),
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log, options.observers_supervise) {
-  const auto& robots = environment_.fleet().robots;
-  std::shared_ptr<const KnownWorld> known_world;  // made for the first robot that needs it
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (!elsewhere.empty() && elsewhere[i]) continue;
-    const std::string name = controllerOf(robots[i].controller, options.controller);
-    ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i), robots[i].world_from_start};
-    if (knowsWorld(name)) {
-      if (!known_world) known_world = makeKnownWorld(environment_.world(), environment_.fleet());
-      setup.known_world = known_world;
+  for (std::size_t i = 0; i < environment_.robotCount(); ++i) {
+    if (elsewhere.empty() || !elsewhere[i]) {
+      addRobot(i, controllerOf(environment_.fleet().robots[i].controller, options.controller));
     }
-    local_robots_.push_back(
-        std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robots[i].info.name)));
-    local_robots_.back()->breakdown_s = drawBreakdownTime(i, options);
   }
+  allowAdditions();
   if (readPictures(options.observers)) takePictures(std::vector<std::uint8_t>(environment_.robotCount(), 1));
   observe();
 }
@@ -183,6 +175,8 @@ LocalRun::LocalRun(ForkOf original)
       environment_(original.run.environment_.model(), original.run.environment_.state(), options_.environment.threads,
                    images_.get()),
       workers_(options_.environment.threads),
+      additions_(original.run.additions_),
+      known_world_(original.run.known_world_),
       observers_(RunObservers::Fork{original.run.observers_}) {
   const auto& robots = environment_.fleet().robots;
   auto local = original.run.local_robots_.begin();  // in the world's order
@@ -199,6 +193,80 @@ LocalRun::LocalRun(ForkOf original)
     local_robots_.back()->breakdown_s = (*local)->breakdown_s;
     ++local;
   }
+  allowAdditions();
+}
+
+void LocalRun::addRobot(std::size_t i, const std::string& name) {
+  const FleetRobot& robot = environment_.fleet().robots[i];
+  ControllerSetup setup{options_.environment.seed, static_cast<std::uint32_t>(i), robot.world_from_start};
+  if (knowsWorld(name)) {
+    if (!known_world_) known_world_ = makeKnownWorld(environment_.world(), environment_.fleet());
+    setup.known_world = known_world_;
+  }
+  local_robots_.push_back(
+      std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robot.info.name)));
+  local_robots_.back()->breakdown_s = drawBreakdownTime(i, options_);
+}
+
+void LocalRun::allowAdditions() {
+  environment_.setRobotCheck([this](const FleetRobot& robot) { return faultOfAdded(robot); });
+  environment_.setImagesOf([this](const Model& model) {
+    images_ = imagesFor(model.world, model.fleet, options_);
+    if (options_.pictures_on_request) {
+      auto* const selected = static_cast<SelectedImages*>(images_.get());
+      if (selected && selected_images_) selected->selected = selected_images_->selected;
+      selected_images_ = selected;
+    }
+    return images_.get();
+  });
+}
+
+std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
+  if (!options_.no_additions_because.empty()) return options_.no_additions_because;
+  const auto& sensors = *robot.info.sensors;
+  const bool has_camera = std::any_of(sensors.begin(), sensors.end(),
+                                      [](const SensorInfo& sensor) { return sensor.kind == SensorKind::camera; });
+  if (has_camera && options_.takes_pictures && !images_) {
+    return "the run renders no pictures, because no robot had a camera at its start, so that no robot with a camera "
+           "can "
+           "be added; use another robot type, or give the world a robot with a camera";
+  }
+  if (options_.is_added_elsewhere && options_.is_added_elsewhere(robot)) return {};
+  const std::string name = controllerOfAdded(robot);
+  try {
+    checkController(name);
+  } catch (const ConfigError& error) {
+    return error.errors().front();
+  }
+  const ControllerType& type = controllers().typeOf(name);
+  for (const SensorKind kind : missingSensors(type, sensors)) {
+    return "its controller " + type.name + " requires a sensor of kind " + nameOf(kind) +
+           "; use another controller or robot type";
+  }
+  return {};
+}
+
+std::string LocalRun::controllerOfAdded(const FleetRobot& robot) const {
+  if (!robot.controller.empty()) return robot.controller;
+  return controllerOf({}, options_.controller_of_added.empty() ? options_.controller : options_.controller_of_added);
+}
+
+void LocalRun::followAdditions() {
+  const RobotAdditions& now = environment_.state().additions;
+  if (now == additions_) return;
+  const auto before = additions_.list(), after = now.list();
+  const std::size_t count = environment_.robotCount(), at_start = count - after.size();
+  const auto same = static_cast<std::size_t>(
+      std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first - before.begin());
+  std::erase_if(local_robots_, [&](const auto& local) { return local->index >= at_start + same; });
+  for (std::size_t i = at_start + same; i < count; ++i) {
+    const FleetRobot& robot = environment_.fleet().robots[i];
+    if (options_.is_added_elsewhere && options_.is_added_elsewhere(robot)) continue;
+    addRobot(i, controllerOfAdded(robot));
+  }
+  additions_ = now;
+  if (selected_images_ && !selected_images_->selected.empty()) selected_images_->selected.resize(count);
+  if (!taken_.empty()) taken_.resize(count);
 }
 
 void LocalRun::wrapControllers(
@@ -261,10 +329,8 @@ void LocalRun::takePictures(const std::vector<std::uint8_t>& robots) {
 
 std::vector<std::uint8_t> LocalRun::pictureReaders() const {
   std::vector<std::uint8_t> readers(environment_.robotCount());
-  std::size_t i = 0;
-  for (const auto& local : local_robots_) {  // in the world's order
-    while (environment_.fleet().robots[i].info.name != local->robot.name()) ++i;
-    readers[i] = needsPictures(local->controller_name);
+  for (const auto& local : local_robots_) {
+    if (local->index < readers.size()) readers[local->index] = needsPictures(local->controller_name);
   }
   return readers;
 }
@@ -276,6 +342,7 @@ void LocalRun::step(const std::function<void()>& record) {
 }
 
 void LocalRun::decide() {
+  followAdditions();
   constexpr std::size_t kChunk = 16;
   workers_.forEach(local_robots_.size(), kChunk, [&](std::size_t i) {
     LocalRobot& local = *local_robots_[i];
@@ -292,6 +359,7 @@ void LocalRun::decide() {
 }
 
 void LocalRun::observe(const std::function<void()>& record) {
+  followAdditions();
   observers_.observe(environment_);
   if (record) record();
   observers_.supervise(environment_);

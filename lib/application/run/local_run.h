@@ -31,6 +31,12 @@ struct RunOptions {
   /// Mean time until a robot breaks down for good, exponentially distributed: it halts, and its controller is called no
   /// more [simulated s]; 0: none does.
   double breakdown_mean_s = 0;
+  /// For robots that interventions add and that name none, in place of `controller`; empty: `controller`.
+  std::string controller_of_added = {};
+  /// Whether another process drives a robot that an intervention adds; null: none does.
+  std::function<bool(const FleetRobot&)> is_added_elsewhere = {};
+  /// Why no robot can be added to the run, and how to change that; empty: robots can be added.
+  std::string no_additions_because = {};
   bool takes_pictures = true;  ///< otherwise cameras take none, which saves most of the time of a run with cameras
   bool pictures_on_request = false;  ///< only the cameras of robots of LocalRun::selectPictures() take pictures
 };
@@ -123,6 +129,9 @@ class LocalRun {
   /// @name Phases of step(), for callers that step the environment themselves
   ///@{
   void decide();
+  /// Makes controllers of robots that have been added, and forgets those of robots that the present state does not
+  /// have. Called by the other functions; to be called before others when the environment has been changed or restored.
+  void followAdditions();
   /// Calls the observers, after the step. @param record as above
   void observe(const std::function<void()>& record = {});
   ///@}
@@ -158,14 +167,25 @@ class LocalRun {
 
  private:
   struct LocalRobot {
+    std::size_t index;
     LocalHardware hardware;
     Robot robot;
     std::string controller_name;  ///< as TypeChoice::text()
     std::unique_ptr<Controller> controller;
     double breakdown_s = std::numeric_limits<double>::infinity();  ///< simulated time
     LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c)
-        : hardware(environment, i), robot(hardware), controller_name(std::move(name)), controller(std::move(c)) {}
+        : index(i),
+          hardware(environment, i),
+          robot(hardware),
+          controller_name(std::move(name)),
+          controller(std::move(c)) {}
   };
+  /// Makes the controller of a robot.
+  void addRobot(std::size_t robot, const std::string& controller);
+  void allowAdditions();
+  std::string faultOfAdded(const FleetRobot& robot) const;
+  std::string controllerOfAdded(const FleetRobot& robot) const;
+
   struct ForkOf {
     const LocalRun& run;
     Elsewhere elsewhere;
@@ -182,6 +202,8 @@ class LocalRun {
   Environment environment_;
   ParallelExecutor workers_;
   std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware
+  RobotAdditions additions_;                               ///< those that have been followed
+  std::shared_ptr<const KnownWorld> known_world_;          ///< null until a controller needs it
   std::optional<bool> has_drawn_elsewhere_;
   RunObservers observers_;
 };

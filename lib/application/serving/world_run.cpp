@@ -65,6 +65,7 @@ std::vector<std::uint8_t> either(std::vector<std::uint8_t> a, const std::vector<
 
 RunOptions onRequest(RunOptions options) {
   options.pictures_on_request = true;
+  options.no_additions_because = "robots cannot be added to a served run; give the world the robot";
   return options;
 }
 

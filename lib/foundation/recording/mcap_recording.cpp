@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
+#include <utility>
 
 #include "base/error_list.h"
+#include "recording/recording_error.h"
 
 namespace robosim {
 
@@ -39,19 +41,35 @@ McapRecording::McapRecording(const std::filesystem::path& file, std::span<const 
   writer_.addMetadata({"rosbag2", {{"serialized_metadata", ""}}});
   rawlog_ = channelOf({kRawlogTopic, &ros::typeOf<ros::UInt8MultiArray>(), TopicDelivery::steady});
   clock_ = channelOf({"/clock", &ros::typeOf<ros::Clock>(), TopicDelivery::steady});
-  bool has_mounts = false;
   try {
-    for (const auto& robot : robots) {
-      const RobotTopics& topics = topics_.emplace_back(robot);
-      auto& channels = channels_of_robot_.emplace_back();
-      for (const auto& topic : topics.topics()) channels.push_back(channelOf(topic));
-      has_mounts = has_mounts || !topics.mounts().empty();
-    }
+    for (const auto& robot : robots) addTopics(robot);
   } catch (const std::length_error& error) {
     throw ConfigError(file.string() + ": has a topic for each sensor of each robot, and " + error.what() +
                       "; record a .rawlog, or fewer robots");
   }
-  if (has_mounts) write(staticTransforms(topics_, start_ns));
+  writeMounts(start_ns);
+}
+
+void McapRecording::addTopics(const RobotInfo& robot) {
+  const RobotTopics& topics = topics_.emplace_back(robot);
+  auto& channels = channels_of_robot_.emplace_back();
+  for (const auto& topic : topics.topics()) channels.push_back(channelOf(topic));
+}
+
+void McapRecording::writeMounts(std::uint64_t time_ns) {
+  const bool have_mounts =
+      std::any_of(topics_.begin(), topics_.end(), [](const auto& topics) { return !topics.mounts().empty(); });
+  if (have_mounts) write(staticTransforms(topics_, time_ns));
+}
+
+void McapRecording::addRobot(const RobotInfo& robot, std::uint64_t time_ns) {
+  try {
+    addTopics(robot);
+  } catch (const std::length_error& error) {
+    throw RecordingError(path().string() + ": robot '" + robot.name + "' cannot be added: " + error.what() +
+                         "; record a .rawlog");
+  }
+  writeMounts(time_ns);
 }
 
 std::uint16_t McapRecording::channelOf(const Topic& topic) {

@@ -34,6 +34,8 @@ class McapRecording {
   /// @throws ConfigError when the file cannot be created, or for more robots than an MCAP file has channels
   McapRecording(const std::filesystem::path& file, std::span<const RobotInfo> robots, std::uint64_t start_ns);
 
+  /// Adds a robot, with the next index, from this time on. @throws RecordingError also when channels are exhausted
+  void addRobot(const RobotInfo& robot, std::uint64_t time_ns);
   /// Bytes of the rawlog. @throws RecordingError as RecordingFile::write() does, as all that follow
   void writeRawlog(std::span<const std::uint8_t> bytes, std::uint64_t time_ns);
   void writeClock(std::uint64_t time_ns);
@@ -54,6 +56,9 @@ class McapRecording {
   class ChannelSink;
 
   std::uint16_t channelOf(const Topic& topic);
+  /// Adds the topics of a robot. @param mounts receives its transforms @throws std::length_error
+  void addTopics(const RobotInfo& robot);
+  void writeMounts(std::uint64_t time_ns);
 
   RecordingFile file_;
   mcap::Writer writer_;

@@ -137,6 +137,7 @@ struct RawlogWriter::Impl {
   void comment(const std::string& text, const SimTime& time);
 
   RawlogFormat format;
+  bool has_external_images = false;
   std::deque<RobotSerializer> serializers;
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
@@ -213,6 +214,7 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
                            RawlogImages images, const std::string& note, const SimTime& start)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
+  impl_->has_external_images = images == RawlogImages::external;
   impl_->last = start;
   if (isMcapName(file) && format != RawlogFormat::observations) {
     throw ConfigError(file.string() + ": an MCAP file has no sensory frames; record observations, or a .rawlog");
@@ -242,6 +244,15 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
 }
 
 RawlogWriter::~RawlogWriter() = default;
+
+void RawlogWriter::addRobot(const RobotInfo& robot) {
+  assert(impl_->format == RawlogFormat::observations);
+  impl_->submitBatch();  // of steps without it
+  impl_->worker.wait();
+  PictureFolder* const pictures = impl_->has_external_images ? &impl_->outputs[0]->pictures : nullptr;
+  impl_->serializers.emplace_back(robot, pictures);
+  if (auto& mcap = impl_->outputs[0]->mcap) mcap->addRobot(robot, nanosecondsOf(impl_->last.seconds()));
+}
 
 void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot,
                          std::span<const Command> commands, std::span<const std::string> comments,

@@ -54,6 +54,10 @@ class RawlogWriter {
                const std::string& note = "", const SimTime& start = {});
   ~RawlogWriter();
 
+  /// Adds a robot to the steps that follow, the last in their order.
+  /// @pre the recording is of observations @throws RecordingError as write()
+  void addRobot(const RobotInfo& robot);
+
   /// Records one time step. Errors of the worker thread are thrown by a later call, at the latest by close(): an
   /// incomplete recording does not appear under its name.
   /// @param readings one per robot, in the constructor's order.

@@ -34,17 +34,24 @@ RecordedRobot blank(const RobotInfo& robot, SimTime time) {
 
 }  // namespace
 
-RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s, Pictures pictures)
-    : reader_(reader), robots_(std::move(robots)), period_s_(period_s), pictures_(pictures) {
-  kept_.resize(robots_.size());
-  for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
-    forget(robot);
-    const auto& sensors = *robots_[robot].sensors;
-    for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
-      if (sensors[slot].times.rate_hz > 0) with_rates_.emplace_back(robot, slot);
-    }
-  }
+RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s, Pictures pictures,
+                             RobotOfComment robot_of)
+    : reader_(reader), robot_of_(std::move(robot_of)), period_s_(period_s), pictures_(pictures) {
+  for (RobotInfo& robot : robots) addRobot(std::move(robot), 0);
   lookahead_ = nextRobotObservation();
+}
+
+void RecordedSteps::addRobot(RobotInfo robot, std::uint64_t position) {
+  const std::size_t index = robots_.size();
+  robots_.push_back(std::move(robot));
+  since_.push_back(position);
+  kept_.emplace_back();
+  forget(index);
+  const auto& sensors = *robots_[index].sensors;
+  for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
+    if (sensors[slot].times.rate_hz > 0) with_rates_.emplace_back(index, slot);
+  }
+  if (!is_missing_.empty()) is_missing_.push_back(0);
 }
 
 void RecordedSteps::forget(std::size_t robot) {
@@ -65,6 +72,7 @@ CObservation::Ptr RecordedSteps::nextRobotObservation() {
     if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(observation)) {
       note_ = comment->text;
       comments_of_next_.push_back(comment->text);
+      if (auto robot = robot_of_ ? robot_of_(comment->text) : std::nullopt) added_.push_back(std::move(*robot));
     } else if (!Label::parse(observation->sensorLabel).robot.empty()) {
       lookahead_position_ = reader_.position();
       return observation;
@@ -79,6 +87,7 @@ void RecordedSteps::seek(std::uint64_t position) {
                                       [](const Place& a, std::uint64_t b) { return a.position < b; });
   const bool is_known = place != places_.end() && place->position == position;
   for (std::size_t robot = 0; robot < robots_.size(); ++robot) forget(robot);
+  added_.clear();
   reader_.seek(is_known ? place->first : position);
   comments_of_next_.clear();
   lookahead_ = nextRobotObservation();
@@ -99,6 +108,11 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next(bool has_measureme
     throw RecordingError(lookahead_->sensorLabel + ": has a timestamp that is not of a run of RoboSim");
   const auto step = static_cast<std::uint64_t>(std::llround(steps));
   const std::uint64_t position = lookahead_position_;
+  for (RobotInfo& added : std::exchange(added_, {})) {
+    const bool is_known =
+        std::any_of(robots_.begin(), robots_.end(), [&](const RobotInfo& robot) { return robot.name == added.name; });
+    if (!is_known) addRobot(std::move(added), position);
+  }
 
   std::vector<Observations> by_robot(robots_.size());
   std::size_t robot = 0;
@@ -126,6 +140,11 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next(bool has_measureme
     if (is_missing_[i]) {
       robots.push_back(blank(robots_[i], {step, period_s_}));
       robots.back().is_missing = true;
+      continue;
+    }
+    if (position < since_[i]) {
+      robots.push_back(blank(robots_[i], {step, period_s_}));
+      robots.back().command = Command{.activity = Activity::absent};
       continue;
     }
     auto complete = assemble(i, by_robot[i], step, position, has_measurements);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,13 +36,18 @@ enum class Pictures { keep, leave_out };
 /// its reading (SensorInfo::times), it has no observation; next() returns the last one before.
 class RecordedSteps {
  public:
+  /// The robot that a comment adds to the recording, from the step that follows it on; nullopt: none.
+  using RobotOfComment = std::function<std::optional<RobotInfo>(const std::string& comment)>;
+
   /// @param robots of the recorded world, in any order
   /// @param period_s length of its steps
+  /// @param robot_of null: no robots are added, and observations of others are ignored
   RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s,
-                Pictures pictures = Pictures::keep);
+                Pictures pictures = Pictures::keep, RobotOfComment robot_of = {});
 
-  /// The next step, with robots in the constructor's order; nullopt at the end. An incomplete step at the end of a
-  /// truncated file is skipped. A robot without observations in the first step is missing in all steps.
+  /// The next step, with robots in the constructor's order, then those added, which are absent in steps before; nullopt
+  /// at the end. An incomplete step at the end of a truncated file is skipped. A robot without observations in the
+  /// first step is missing in all steps.
   /// @throws RecordingError for an observation that does not match these robots, or when all robots are missing.
   std::optional<std::vector<RecordedRobot>> next();
   /// The same without measurements, which are blank: what takes most of the time is left out. Continue with seek()
@@ -80,11 +86,15 @@ class RecordedSteps {
   std::optional<RecordedRobot> assemble(std::size_t robot, const Observations& observations, std::uint64_t step,
                                         std::uint64_t position, bool has_measurements);
   void forget(std::size_t robot);
+  void addRobot(RobotInfo robot, std::uint64_t position);
   void addPlace(std::uint64_t position);
   mrpt::obs::CObservation::Ptr nextRobotObservation();
 
   RawlogReader& reader_;
   std::vector<RobotInfo> robots_;
+  RobotOfComment robot_of_;
+  std::vector<RobotInfo> added_;      ///< from the next step on
+  std::vector<std::uint64_t> since_;  ///< by robot: position of its first step
   double period_s_;
   Pictures pictures_;
   std::vector<std::uint8_t> is_missing_;  ///< by robot; empty before the first step

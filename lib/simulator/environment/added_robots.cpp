@@ -27,10 +27,18 @@ void Environment::Impl::useModel(std::shared_ptr<const Model> other) {
   antenna_z_m = ofRobots(fleet(), antennaOf);
   noteGrippers();
   share = {everyRobot(), everyRobot()};
+  if (images_of) images = images_of(*model);
+}
+
+void Environment::Impl::replaceState(State other) {
+  former_arrays.push_back({std::move(state.world_from_robot), std::move(state.commands), std::move(state.stalled)});
+  state = std::move(other);
 }
 
 void Environment::Impl::addRobot(std::shared_ptr<const Model> larger) {
-  addLastRobot(state, *larger);
+  State with_robot = state;
+  addLastRobot(with_robot, *larger);
+  replaceState(std::move(with_robot));
   useModel(std::move(larger));
   state.all_halted_step.reset();
   ++pose_changes;
@@ -41,7 +49,7 @@ void Environment::Impl::addRobot(std::shared_ptr<const Model> larger) {
 void Environment::Impl::restoreWithOtherRobots(const State& saved) {
   auto other = modelWith(saved.additions);
   requireSameShape(saved, initialState(*other));
-  state = saved;
+  replaceState(saved);
   useModel(std::move(other));
   noteState();
   placeBodies();

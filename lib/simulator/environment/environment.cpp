@@ -55,6 +55,8 @@ bool Environment::enter(std::size_t robot) { return impl_->enter(robot); }
 
 void Environment::setRobotCheck(RobotCheck check) { impl_->robot_check = std::move(check); }
 
+void Environment::setImagesOf(ImagesOf images_of) { impl_->images_of = std::move(images_of); }
+
 World Environment::presentWorld() const {
   World present = world();
   present.objects = objects();

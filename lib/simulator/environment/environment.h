@@ -34,6 +34,9 @@ class StepPhases;
 /// @return what is wrong, and how to fix it; empty if nothing is
 using RobotCheck = std::function<std::string(const FleetRobot&)>;
 
+/// The source of pictures of a run that continues with another model, whose cameras see its robots; null: none.
+using ImagesOf = std::function<ImageSource*(const Model&)>;
+
 /// Maximum number of robots that are added to a run, each with a Model of its own.
 constexpr std::size_t kAddedRobotsMax = 1000;
 
@@ -115,6 +118,8 @@ class Environment {
   void applyAgain(const Intervention& intervention);
   /// Also checks each robot before it is added by apply(). Null: no check.
   void setRobotCheck(RobotCheck check);
+  /// Called whenever the model is another. Null: the images remain, whose source must then know all robots.
+  void setImagesOf(ImagesOf images_of);
   /// The objects at present: those of the world, as interventions have changed them. Valid until the next change.
   const std::vector<WorldObject>& objects() const { return state().objects.orThose(world().objects); }
   /// A copy of the world with its present objects and added robots.

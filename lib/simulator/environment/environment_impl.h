@@ -46,7 +46,15 @@ struct Environment::Impl {
 
   std::shared_ptr<const Model> model;
   std::vector<std::shared_ptr<const Model>> models;  ///< all of the run so far, to which readers may refer
+  /// Arrays of former states with another number of robots, to which readers may refer (arrays of Python).
+  struct FormerArrays {
+    std::vector<mrpt::math::TPose2D> world_from_robot;
+    std::vector<Command> commands;
+    std::vector<std::uint8_t> stalled;
+  };
+  std::vector<FormerArrays> former_arrays;
   RobotCheck robot_check;
+  ImagesOf images_of;
   bool is_shared;  ///< with other processes
   ImageSource* images;
   ParallelExecutor workers;
@@ -111,6 +119,8 @@ struct Environment::Impl {
   std::shared_ptr<const Model> modelWith(const RobotAdditions& additions) const;
   /// Continues with another model of this run, of the state's robots. noteState() and placeBodies() must follow.
   void useModel(std::shared_ptr<const Model> other);
+  /// Replaces the state by one with another number of robots.
+  void replaceState(State other);
   /// Adds the robot that is the last of another model.
   void addRobot(std::shared_ptr<const Model> larger);
   /// Restores a state in which other robots have been added.

@@ -91,6 +91,10 @@ struct EnvironmentBatch::Impl {
   static void enter(Episode& episode, std::shared_ptr<const BatchWorld> world) {
     episode.others.reset();
     episode.environment = std::make_unique<Environment>(world->model, world->start);
+    episode.environment->setRobotCheck([](const FleetRobot&) {
+      return "learning environments have arrays of a fixed number of robots; give the world the robot, and take it out "
+             "until it is needed";
+    });
     episode.world = std::move(world);
   }
 

@@ -75,8 +75,23 @@ std::vector<std::string> notesBefore(const State& state, std::uint64_t step, boo
   for (const auto& applied : state.interventions) {
     if (applied.step == step) notes.push_back(InterventionNote{step, applied.intervention}.text());
   }
+  for (const AddRobot& robot : is_first ? state.additions.list() : std::span<const AddRobot>()) {
+    notes.push_back(dumped(nlohmann::ordered_json{{"robosim_robot", 1}, {"added", changeText(robot)}}));
+  }
   if (is_first && state.objects.areChanged()) notes.push_back(noteOfAll(state.objects));
   return notes;
+}
+
+std::optional<AddRobot> robotAddedBy(const std::string& text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  std::optional<Change> change;
+  if (const auto note = noteIn(json)) {
+    change = note->intervention.change;
+  } else if (json.is_object() && json.contains("robosim_robot") && json.value("added", nlohmann::json()).is_string()) {
+    change = parseChange(json.at("added"), "a robot of a recording");
+  }
+  const auto* robot = change ? std::get_if<AddRobot>(&*change) : nullptr;
+  return robot ? std::optional(*robot) : std::nullopt;
 }
 
 std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now) {

@@ -21,8 +21,12 @@ struct InterventionNote {
 };
 
 /// Texts of the notes of a state's interventions before a step.
-/// @param is_first whether a recording begins with this step: then also of the objects, if they have been changed
+/// @param is_first whether a recording begins with this step: then also of the objects, if they have been changed,
+/// and of robots that have been added before
 std::vector<std::string> notesBefore(const State& state, std::uint64_t step, bool is_first);
+/// The robot that a comment of a recording adds: by an intervention, or, at the beginning of a recording, by one before
+/// it; nullopt for none. @throws ConfigError for an invalid change
+std::optional<AddRobot> robotAddedBy(const std::string& text);
 /// The note of objects that have moved since a recorded step: their places, or all objects if those were not recorded.
 /// Empty if none have.
 std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now);

@@ -76,6 +76,10 @@ std::string RunNote::text() const {
                               {"files", is_small ? files : nlohmann::ordered_json::object()}};
   if (!is_small && has_small_text) json["without_files"] = {{"world_text", world.text}, {"robot_types", types}};
   if (first_step > 0) json["first_step"] = first_step;
+  if (!controller_of_added.empty()) json["controller_of_added"] = controller_of_added;
+  if (added_elsewhere != Elsewhere::none) {
+    json["added_elsewhere"] = added_elsewhere == Elsewhere::all ? "all" : "without_controller";
+  }
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -94,6 +98,11 @@ std::optional<RunNote> RunNote::parse(const std::string& text) {
     note.world.seed = note.without_files.seed = note.seed;
     note.period_s = json.at("period_s");
     note.first_step = json.value("first_step", std::uint64_t{0});
+    note.controller_of_added = json.value("controller_of_added", "");
+    const std::string elsewhere = json.value("added_elsewhere", "");
+    note.added_elsewhere = elsewhere == "all"                  ? Elsewhere::all
+                           : elsewhere == "without_controller" ? Elsewhere::without_controller
+                                                               : Elsewhere::none;
     note.controllers = json.at("controllers").get<std::vector<std::string>>();
     note.outcome = json.at("outcome");
     if (!(note.period_s > 0 && note.period_s <= 1)) return std::nullopt;
@@ -123,8 +132,16 @@ RunNote makeNote(const WorldSource& source, const LocalRun& run, const RunOption
   note.seed = options.environment.seed;
   note.world.seed = note.seed;
   note.period_s = options.environment.period_s;
+  if (options.is_added_elsewhere) {
+    FleetRobot added;
+    if (options.is_added_elsewhere(added)) note.added_elsewhere = RunNote::Elsewhere::without_controller;
+    added.controller = kDefaultController;
+    if (options.is_added_elsewhere(added)) note.added_elsewhere = RunNote::Elsewhere::all;
+  }
+  note.controller_of_added = options.controller_of_added.empty() ? options.controller : options.controller_of_added;
   const auto& robots = run.environment().fleet().robots;
-  for (std::size_t i = 0; i < robots.size(); ++i) {
+  const std::size_t at_start = robots.size() - run.environment().state().additions.size();
+  for (std::size_t i = 0; i < at_start; ++i) {
     const bool is_elsewhere = !elsewhere.empty() && elsewhere[i];
     note.controllers.push_back(is_elsewhere ? "" : controllerOf(robots[i].controller, options.controller));
   }

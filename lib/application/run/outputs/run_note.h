@@ -28,7 +28,10 @@ struct RunNote {
   double period_s = 0.1;
   std::uint64_t first_step = 0;          ///< greater than 0 when the recording was started during the run
   std::vector<std::string> controllers;  ///< by robot, in the world's order; empty if driven by another process
-  nlohmann::ordered_json outcome;        ///< as RunSummary::json(); null until the run ends
+  std::string controller_of_added;       ///< of robots that interventions add and that name none
+  /// Which robots that interventions add are driven by another process.
+  enum class Elsewhere { none, without_controller, all } added_elsewhere = Elsewhere::none;
+  nlohmann::ordered_json outcome;  ///< as RunSummary::json(); null until the run ends
 
   std::string text() const;
   /// nullopt if the comment is no such note.

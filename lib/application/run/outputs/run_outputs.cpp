@@ -24,6 +24,7 @@ class RunOutputs::Tracks {
   /// The path of an absent robot begins again when it comes back.
   void add(std::span<const mrpt::math::TPose2D> world_from_robot, std::span<const Activity> activity) {
     constexpr double kSpacing_m = 0.05;
+    points_.resize(world_from_robot.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (activity[i] == Activity::absent) {
         points_[i].clear();
@@ -100,7 +101,10 @@ RunOutputs::~RunOutputs() = default;
 
 void RunOutputs::observe(const Environment& environment) {
   const State& state = environment.state();
-  if (recording_) recording_->write(state);
+  if (recording_) {
+    recording_->follow(environment.fleet());
+    recording_->write(state);
+  }
   if (tracks_) tracks_->add(state.world_from_robot, state.activity);
 }
 
@@ -108,6 +112,7 @@ void RunOutputs::setRecording(bool on, const LocalRun& run) {
   if (!recording_) throw ConfigError("the run is not recorded: robosim serve was started without --record");
   if (on == recording_->isOn()) return;
   if (on) {
+    recording_->follow(run.environment().fleet());
     recording_->openNext(run.environment().state());
   } else {
     recording_->close(run.environment().state(), summaryOf(run, EndedBy::recording_stopped));

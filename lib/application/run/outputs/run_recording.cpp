@@ -13,6 +13,10 @@ RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robo
                            std::shared_ptr<const Model> model)
     : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)), topics_(std::move(model)) {}
 
+void RunRecording::follow(const Fleet& fleet) {
+  for (std::size_t i = robots_.size(); i < fleet.robots.size(); ++i) robots_.push_back(fleet.robots[i].info);
+}
+
 void RunRecording::open() {
   is_requested_ = false;
   open(options_.file, {}, {});
@@ -34,6 +38,7 @@ void RunRecording::open(const std::filesystem::path& file, const SimTime& start,
   note_.outcome = nullptr;
   note_.first_step = start.step;
   writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
+  recorded_robots_ = robots_.size();
   previous_file_ = std::exchange(file_, file);
   if (auto* const mcap = writer_->mcap()) topics_.begin(*mcap, note_, objects, nanosecondsOf(start.seconds()));
   const auto files = writer_->files();
@@ -51,6 +56,7 @@ void RunRecording::write(const State& state) {
     }
     const std::string moved = is_new_part_ || state.object_speeds.empty() ? "" : movedNote(objects_, state.objects);
     if (!moved.empty()) notes.push_back(moved);
+    for (; recorded_robots_ < robots_.size(); ++recorded_robots_) writer_->addRobot(robots_[recorded_robots_]);
     writer_->write(state.readings, state.world_from_robot, state.commands, notes, messages);
     is_new_part_ = false;
     objects_ = state.objects;

@@ -27,6 +27,8 @@ class RunRecording {
   RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note,
                std::shared_ptr<const Model> model);
 
+  /// Continues with a fleet that has further robots, the last.
+  void follow(const Fleet& fleet);
   bool isOn() const { return writer_ != nullptr; }
   /// The current or last part; empty before the first.
   const std::filesystem::path& file() const { return file_; }
@@ -66,6 +68,7 @@ class RunRecording {
   std::vector<RobotInfo> robots_;
   RunNote note_;
   std::unique_ptr<RawlogWriter> writer_;  ///< null while the recording is off
+  std::size_t recorded_robots_ = 0;       ///< number of those that the writer has
   bool is_requested_ = false;             ///< the current or last part is of openNext()
   bool is_new_part_ = false;              ///< no step of the part has been written
   ChangedObjects objects_;                ///< of the step recorded last
