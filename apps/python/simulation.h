@@ -111,13 +111,13 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   std::unique_ptr<LocalRun> run_;
   std::vector<PythonDriven> of_python_;
   std::vector<std::unique_ptr<Handle>> handles_;  ///< by robot; null until used
+  std::vector<std::string> added_names_;          ///< of the robots that have been added, the last ones
   std::map<std::string, std::size_t> index_;
   std::map<std::string, std::vector<std::unique_ptr<ObservationLayout>>> layouts_;
   std::unique_ptr<RawlogWriter> recording_;
   std::unique_ptr<RunNote> recorded_;          ///< the recording's note
   std::unique_ptr<WorldTopics> world_topics_;  ///< of a recording that is an MCAP file
   std::size_t recorded_robots_ = 0;            ///< number of those that the recording has
-  std::vector<std::string> added_names_;       ///< of the robots that have been added, the last ones
   bool is_new_recording_ = false;              ///< no step of it has been written
   std::atomic<bool> engine_runs_ = false;
   bool is_in_step_ = false;

@@ -52,6 +52,48 @@ TEST_F(RecordedStepsTest, RoundTripReadingsCommandsAndMessagesExactly) {
   EXPECT_EQ(steps.note(), "last note");
 }
 
+TEST_F(RecordedStepsTest, HaveARobotThatWasAddedFromItsFirstStepOnAlsoAfterSeeking) {
+  constexpr std::size_t kAddedAt = 5, kSteps = 10;
+  const std::vector<RobotInfo> first{robots_[0]};
+  for (const char* name : {"run.rawlog", "run.mcap"}) {
+    written_.clear();
+    RawlogWriter writer(in(name), first, RawlogFormat::observations, RawlogImages::embedded, "first note");
+    for (std::size_t k = 0; k < kSteps; ++k) {
+      written_.push_back(readingsAt(k));
+      for (auto& readings : written_.back()) readings.winner.clear();
+      const std::size_t count = k < kAddedAt ? 1 : 2;
+      std::vector<std::string> comments;
+      if (k == kAddedAt) {
+        writer.addRobot(robots_[1]);
+        comments.push_back("adds b");
+      }
+      writer.write(std::span(written_.back()).first(count), std::vector<TPose2D>(count), std::vector<Command>(count),
+                   comments);
+    }
+    writer.close("last note");
+
+    RawlogReader reader(in(name), RawlogReader::Access::random);
+    RecordedSteps steps(reader, first, 0.1, Pictures::keep, [&](const std::string& comment) {
+      return comment == "adds b" ? std::optional(robots_[1]) : std::nullopt;
+    });
+    std::vector<std::uint64_t> positions;
+    for (std::size_t k = 0; k < kSteps; ++k) {
+      positions.push_back(steps.position());
+      const auto step = steps.next();
+      ASSERT_TRUE(step) << k;
+      ASSERT_EQ(step->size(), k < kAddedAt ? 1u : 2u);
+      EXPECT_EQ(step->back().readings.measurements, written_[k][step->size() - 1].measurements) << k;
+    }
+    for (const std::size_t k : {8, 2, 5, 4}) {
+      steps.seek(positions[k]);
+      const auto step = steps.next();
+      ASSERT_TRUE(step && step->size() == 2) << k;
+      EXPECT_EQ(isAbsent((*step)[1]), k < kAddedAt) << k;
+      EXPECT_EQ((*step)[0].readings.measurements, written_[k][0].measurements) << k;
+    }
+  }
+}
+
 /// Size of the decompressed data of a truncated gzip file.
 std::size_t unpackedSize(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
