@@ -145,10 +145,6 @@ LoadedWorld loadedWorld(const LocalRunArguments& arguments, std::optional<WorldS
                 : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed);
 }
 
-constexpr const char* kFixedInWindow = "robots cannot be added to a run in a window; run it without --view";
-constexpr const char* kFixedInFrames =
-    "robots cannot be added to a run whose recording has a file for each robot; record observations (--rawlog-format "
-    "obs)";
 constexpr const char* kInterrupted = "interrupted; all outputs cover the steps before";
 
 /// @param window of --view or --foxglove; null: none
@@ -161,8 +157,7 @@ void runWorld(const LocalRunArguments& arguments, const RunWindow& window, doubl
   // Rendering takes most of the time of a run with cameras.
   options.takes_pictures =
       arguments.isRecorded() || window || needPictures(world.fleet, options.controller, options.observers);
-  if (window) options.no_additions_because = kFixedInWindow;
-  if (!arguments.record.empty() && arguments.rawlog_format == "sf") options.no_additions_because = kFixedInFrames;
+  options.check_added = [fault = whyNoAdditions(arguments)](const FleetRobot&) { return fault; };
   LocalRun run(std::move(world), options);
   RunFiles files(arguments, run, source);
   const ObserveStep observe = [&] { files.observe(); };

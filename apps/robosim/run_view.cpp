@@ -29,6 +29,7 @@ class LocalRunView final : public ViewSource {
   }
 
   const LoadedWorld& world() const override { return world_; }
+  int worldNumber() const override { return world_number_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
   const RunPaths& paths() const override { return paths_; }
   std::string title() const override { return arguments_.world; }
@@ -41,7 +42,7 @@ class LocalRunView final : public ViewSource {
       takeFor(wall_s);
     }
     if (run_.environment().time().step == before) return false;
-    snapshot_ = takeSnapshot(run_.environment());
+    show();
     return true;
   }
   bool isOver() const override { return run_.isOver() || arguments_.timeIsUp(run_.environment().time()); }
@@ -56,13 +57,20 @@ class LocalRunView final : public ViewSource {
   std::string whyUnchangeable() const override { return isOver() ? "the run is over" : ""; }
   void change(const Change& change) override {
     answers_.push_back(run_.environment().apply({kAuthor, change}));
-    if (answers_.back().empty()) snapshot_ = takeSnapshot(run_.environment());
+    if (answers_.back().empty()) show();
   }
   std::vector<std::string> takeAnswers() override { return std::exchange(answers_, {}); }
 
  private:
   static constexpr const char* kAuthor = "view";  ///< of interventions
 
+  void show() {
+    snapshot_ = takeSnapshot(run_.environment());
+    const Fleet& fleet = run_.environment().fleet();
+    if (fleet.robots.size() == world_.fleet.robots.size()) return;
+    world_.fleet = fleet;  // with robots that have been added
+    ++world_number_;
+  }
   void take() {
     if (isOver()) return;
     run_.step(observe_);
@@ -88,6 +96,7 @@ class LocalRunView final : public ViewSource {
   const RunArguments& arguments_;
   const ObserveStep& observe_;
   LoadedWorld world_;
+  int world_number_ = 0;
   RunSnapshot snapshot_;
   RunPaths paths_;
   double speed_;

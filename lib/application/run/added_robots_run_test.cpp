@@ -59,9 +59,9 @@ TEST(AddedRobotsInARun, AreRefusedForAnImpossibleController) {
   added = {"B", "pioneer3dx_camera", {-3, 3, 0}, "still"};
   EXPECT_TRUE(applyTo(run, added).starts_with("the run renders no pictures")) << applyTo(run, added);
   RunOptions options;
-  options.no_additions_because = "not now";
+  options.check_added = [](const FleetRobot& robot) { return robot.info.name + " not now"; };
   LocalRun closed(oneScout(), options);
-  EXPECT_EQ(applyTo(closed, wanderer("B", -3)), "not now");
+  EXPECT_EQ(applyTo(closed, wanderer("B", -3)), "B not now");
   EXPECT_EQ(run.environment().robotCount(), 1u);
 }
 

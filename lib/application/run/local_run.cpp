@@ -222,7 +222,9 @@ void LocalRun::allowAdditions() {
 }
 
 std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
-  if (!options_.no_additions_because.empty()) return options_.no_additions_because;
+  if (options_.check_added) {
+    if (std::string fault = options_.check_added(robot); !fault.empty()) return fault;
+  }
   const auto& sensors = *robot.info.sensors;
   const bool has_camera = std::any_of(sensors.begin(), sensors.end(),
                                       [](const SensorInfo& sensor) { return sensor.kind == SensorKind::camera; });

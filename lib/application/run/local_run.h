@@ -35,8 +35,9 @@ struct RunOptions {
   std::string controller_of_added = {};
   /// Whether another process drives a robot that an intervention adds; null: none does.
   std::function<bool(const FleetRobot&)> is_added_elsewhere = {};
-  /// Why no robot can be added to the run, and how to change that; empty: robots can be added.
-  std::string no_additions_because = {};
+  /// Why a robot cannot be added to the run, and how to change that; empty: it can. Null: all can, as far as a LocalRun
+  /// is concerned.
+  RobotCheck check_added = {};
   bool takes_pictures = true;  ///< otherwise cameras take none, which saves most of the time of a run with cameras
   bool pictures_on_request = false;  ///< only the cameras of robots of LocalRun::selectPictures() take pictures
 };

@@ -65,7 +65,6 @@ std::vector<std::uint8_t> either(std::vector<std::uint8_t> a, const std::vector<
 
 RunOptions onRequest(RunOptions options) {
   options.pictures_on_request = true;
-  options.no_additions_because = "robots cannot be added to a served run; give the world the robot";
   return options;
 }
 
@@ -95,6 +94,21 @@ class WorldRun::OneRun {
     requestPictures({});
     outputs.observe(run.environment());
     if (options.is_realtime) late = 0;
+  }
+
+  /// Follows the robots that have been added to the environment.
+  void addRobots(const WorldRunOptions& options) {
+    run.followAdditions();
+    std::vector<std::uint8_t> are_networked;
+    const auto& robots = run.environment().fleet().robots;
+    for (std::size_t i = networked.size(); i < robots.size(); ++i) {
+      is_arcos.push_back(0);
+      are_networked.push_back(isNetworked(robots[i], options) ? 1 : 0);
+    }
+    networked.insert(networked.end(), are_networked.begin(), are_networked.end());
+    run_info.addRobots(are_networked);
+    has_cameras = hasCamera(run.environment().fleet());
+    picture_readers = run.pictureReaders();
   }
 
   /// Selects the robots whose cameras take pictures: those of clients, and those that the run itself needs.
@@ -196,6 +210,12 @@ void WorldRun::logArcosPorts() const {
     options_.arcos->log("robot " + robot.name + " (" + robot.model + ") for ARCOS programs on " +
                         withPort(options_.arcos->listen, ports[i]));
   }
+}
+
+void WorldRun::addRobots() {
+  const std::size_t before = run_->networked.size();
+  run_->addRobots(options_);
+  if (foxglove_ && run_->networked.size() != before) beginFoxglove();  // with the topics of the new robot
 }
 
 void WorldRun::beginFoxglove() {
@@ -310,6 +330,12 @@ std::shared_ptr<WorldRun::OneRun> WorldRun::load(WorldSource source, int number)
   source.seed = seed = source.seed.value_or(seed);
   of_this_run.record = numbered(of_this_run.record, number);
   of_this_run.picture = numbered(of_this_run.picture, number);
+  RunOptions& run = of_this_run.run;
+  run.is_added_elsewhere = [options = options_](const FleetRobot& robot) { return isNetworked(robot, options); };
+  run.check_added = [options = options_, fault = whyNoAdditions(of_this_run)](const FleetRobot& robot) {
+    if (!fault.empty() || !isDrivenByArcos(robot, options)) return fault;
+    return std::string("robots for ARCOS programs cannot be added; name a controller");
+  };
   // A robot that another process drives needs no sensors for a controller of this one.
   const auto is_elsewhere = [this](const FleetRobot& robot, std::size_t) {
     return isDrivenByArcos(robot, options_) || isNetworked(robot, options_);

@@ -31,6 +31,7 @@ class WorldRun final : public ServedRun {
 
   Environment& environment() override;
   std::shared_ptr<const RunInfo> runInfo() const override;  ///< keeps its run alive
+  void addRobots() override;
   void poll(RunControl& control) override;
   void requestPictures(const std::vector<std::uint8_t>& robots) override;
   void decide() override;

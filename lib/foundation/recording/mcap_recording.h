@@ -56,9 +56,9 @@ class McapRecording {
   class ChannelSink;
 
   std::uint16_t channelOf(const Topic& topic);
-  /// Adds the topics of a robot. @param mounts receives its transforms @throws std::length_error
+  /// @throws std::length_error
   void addTopics(const RobotInfo& robot);
-  void writeMounts(std::uint64_t time_ns);
+  void writeMounts(std::uint64_t time_ns);  ///< of all robots
 
   RecordingFile file_;
   mcap::Writer writer_;

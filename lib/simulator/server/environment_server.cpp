@@ -124,6 +124,14 @@ struct EnvironmentServer::Impl {
     geometry.reset();
   }
 
+  /// Serves the robots that have been added since the last call.
+  void addRobots(ServedRun& run) {
+    if (run.environment().robotCount() == serving.run_info->robot_names.size()) return;
+    run.addRobots();
+    robots.addRobots();
+    viewers.addRobots();
+  }
+
   /// Requests the pictures that clients receive, including those that have connected since the last call.
   void requestPictures(ServedRun& run) {
     pictured.assign(serving.run_info->robot_names.size(), 0);
@@ -256,7 +264,9 @@ struct EnvironmentServer::Impl {
     operations.intervene = [&](const Intervention& change) {
       if (has_run_ended || run.isOver())
         return std::string("the run is over, and its result stands; load the next one");
-      return run.environment().apply(change);
+      std::string fault = run.environment().apply(change);
+      addRobots(run);
+      return fault;
     };
     operations.describe = [&](v1::RunStatus& status) { describe(run, status); };
     admit(run);
@@ -291,8 +301,10 @@ struct EnvironmentServer::Impl {
       requestPictures(run);
       run.decide();
       geometry.step(run.environment());
+      addRobots(run);  // of the world file
       logDroppedMessages(run.environment().state());
       run.stepped(late);
+      addRobots(run);  // of observers
       robots.publish();
       viewers.publish();
       noteStep(run.environment().time().period_s);

@@ -206,7 +206,8 @@ void GeometrySession::send(Stream& stream, const internal::Task& task, const int
 void GeometrySession::step(Environment& environment) {
   const std::size_t n = environment.robotCount();
   const RobotRange every{0, n};
-  const Streams workers = readyWorkers(n);
+  // The replicas of workers are those of the world at the start.
+  const Streams workers = environment.state().additions.size() > 0 ? Streams() : readyWorkers(n);
   if (workers.empty()) {
     environment.step();
     return;
@@ -221,6 +222,15 @@ void GeometrySession::step(Environment& environment) {
     encode(environment.state(), state);
   }
   environment.phases().begin();
+  if (environment.robotCount() != n) {  // the world file has added some
+    const RobotRange all{0, environment.robotCount()};
+    environment.phases().clip(all);
+    environment.phases().judge(all);
+    environment.phases().move();
+    environment.phases().sense(all);
+    environment.phases().finish();
+    return;
+  }
   environment.phases().clip(every);
   environment.phases().judge(every);
   const internal::Task task = makeTask(environment);

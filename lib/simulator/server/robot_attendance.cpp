@@ -11,6 +11,14 @@ void RobotAttendance::reset(const RunInfo& run_info) {
   left_while_active_.clear();
 }
 
+void RobotAttendance::addRobots(const RunInfo& run_info) {
+  names_ = run_info.robot_names;
+  for (std::size_t i = entries_.size(); i < names_.size(); ++i) {
+    entries_.push_back({});
+    entries_[i].is_networked = run_info.is_networked[i] != 0;
+  }
+}
+
 void RobotAttendance::join(std::size_t robot, bool continues, std::uint64_t step, bool is_active) {
   Entry& entry = entries_[robot];
   if (!entry.has_joined) {

@@ -18,6 +18,9 @@ class RobotAttendance {
   /// Starts a run in which no robot has joined.
   void reset(const RunInfo& run_info);
 
+  /// Continues with the robots that have been added to a run.
+  void addRobots(const RunInfo& run_info);
+
   /// @param continues whether the process has driven the robot in this run before, and connects again
   /// @param step of the run @param is_active whether the robot is active
   void join(std::size_t robot, bool continues, std::uint64_t step, bool is_active);

@@ -16,6 +16,8 @@ class RobotInboxes {
   static constexpr std::size_t kBytesMax = 256 * 1024;  ///< of texts
 
   void reset(std::size_t robots);
+  /// Continues with further robots.
+  void addRobots(std::size_t robots) { inboxes_.resize(robots); }
   /// Adds the messages that a step delivered to a robot.
   void add(std::size_t robot, std::uint64_t step, const std::vector<RobotMessage>& messages);
   /// Records that the robot's process has received the readings of all steps up to `step`.

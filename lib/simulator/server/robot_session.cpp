@@ -83,6 +83,14 @@ void RobotSession::reset() {
   late_ = 0;
 }
 
+void RobotSession::addRobots() {
+  const std::size_t n = serving_.run_info->robot_names.size();
+  driver_of_.resize(n, nullptr);
+  next_answer_.resize(n, 0);
+  attendance_.addRobots(*serving_.run_info);
+  inboxes_.addRobots(n);
+}
+
 bool RobotSession::isSameProcess(const Stream& before, const Stream& now, const v1::RobotsHello& hello) {
   return hello.process().size() >= kProcessIdBytes && before.process == hello.process() &&
          before.client().hasTokenOf(now.client());

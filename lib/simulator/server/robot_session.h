@@ -27,6 +27,8 @@ class RobotSession final : public v1::Robots::WithRawMethod_Drive<v1::Robots::Se
   void open(const CompletionQueueServer::ServiceQueues& queues);
   /// Switches to the current ServingState::run_info: disconnects the processes of the previous run.
   void reset();
+  /// Continues with the robots that have been added to the run.
+  void addRobots();
   /// Admits new processes, and sends them the welcome and the readings of the current step.
   void admit();
   /// Robots that a step must wait for: networked robots that have not joined the run, and with the policy `wait` those

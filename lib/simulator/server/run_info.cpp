@@ -6,6 +6,7 @@
 #include "base/error_list.h"
 #include "base/utf8.h"
 #include "net/wire_error.h"
+#include "robots/robot_type_includes.h"
 
 namespace robosim {
 namespace {
@@ -41,6 +42,21 @@ RunInfo::RunInfo(const Environment& the_environment, WorldSource the_source, std
     checkUtf8(robot.info.model, "robot type");
     robot_named.emplace(robot.info.name, robot_names.size());
     robot_names.push_back(robot.info.name);
+  }
+}
+
+void RunInfo::addRobots(const std::vector<std::uint8_t>& are_networked) {
+  const Fleet& fleet = environment.fleet();
+  is_networked.insert(is_networked.end(), are_networked.begin(), are_networked.end());
+  for (std::size_t i = robot_names.size(); i < fleet.robots.size(); ++i) {
+    robot_named.emplace(fleet.robots[i].info.name, i);
+    robot_names.push_back(fleet.robots[i].info.name);
+  }
+  if (!fleet.known_types) return;
+  for (const AddRobot& added : environment.state().additions.list()) {
+    const auto type = fleet.known_types->types.find(added.model);
+    if (type == fleet.known_types->types.end() || source.robot_types.contains(added.model)) continue;
+    source.robot_types[added.model] = {type->second.file, resolveIncludes(type->second)};
   }
 }
 

@@ -16,6 +16,10 @@ struct RunInfo {
   RunInfo(const Environment& environment, WorldSource source, std::uint64_t seed,
           std::vector<std::uint8_t> is_networked);
 
+  /// Adds the robots that interventions have added to the environment, and their types to the source.
+  /// @param are_networked of these robots
+  void addRobots(const std::vector<std::uint8_t>& are_networked);
+
   const Environment& environment;
   WorldSource source;
   std::string world_version;

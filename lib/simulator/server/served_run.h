@@ -39,6 +39,8 @@ class ServedRun {
   virtual Environment& environment() = 0;
   /// The part of the run that is served to clients.
   virtual std::shared_ptr<const RunInfo> runInfo() const = 0;
+  /// Called between steps after robots have been added to the environment: runInfo() has them afterwards.
+  virtual void addRobots() {}
   /// Called at least every ServingState::kPollInterval, between steps, also while the run is paused: serves clients
   /// that are not the server's, which may change how the run proceeds.
   virtual void poll(RunControl& /*control*/) {}

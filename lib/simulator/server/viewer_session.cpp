@@ -115,6 +115,7 @@ void ViewerSession::send(Stream& stream) {
     encode(run_info.source, *world.mutable_source());
     world.set_world_version(run_info.world_version);
     world.set_period_s(state.time.period_s);
+    for (const AddRobot& robot : state.additions.list()) world.add_added_robots(changeText(robot));
     world.set_may_operate(serving_.access.check(stream.client(), Right::operate).ok());
   }
   frame.set_step(state.time.step);

@@ -23,6 +23,8 @@ class ViewerSession final : public v1::Viewing::WithRawMethod_Watch<v1::Viewing:
   void open(const CompletionQueueServer::ServiceQueues& queues);
   /// Switches to the current ServingState::run_info: every viewer's next frame is complete.
   void reset();
+  /// Sends the world again, with the robots that have been added to the run.
+  void addRobots() { reset(); }
   /// Sends the current step to the viewers with a pending request, unless they have received it with the same readings.
   void publish();
 

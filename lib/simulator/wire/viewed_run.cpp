@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "base/error_list.h"
+#include "environment/environment.h"
 #include "net/robot_wire.h"
+#include "robots/added_robot.h"
 #include "wire/world_wire.h"
 #include "world/intervention.h"
 
@@ -38,11 +40,23 @@ void add(const Readings& readings, std::size_t robot, std::optional<std::uint64_
   }
 }
 
+void addRobots(const google::protobuf::RepeatedPtrField<std::string>& elements, Fleet& fleet) {
+  if (static_cast<std::size_t>(elements.size()) > kAddedRobotsMax)
+    throw WireError("a frame with too many added robots");
+  for (const std::string& element : elements) {
+    const Change change = parseChange(element, "added robot");
+    const auto* robot = std::get_if<AddRobot>(&change);
+    if (!robot) throw WireError("a frame with an invalid added robot");
+    fleet = withRobot(std::move(fleet), *robot);
+  }
+}
+
 /// Replaces the world; the state of its robots is reset.
 void loadWorldFrom(ViewedRun& run, const v1::Frame& frame) {
   const v1::FrameWorld& world = frame.world();
   if (!(world.period_s() > 0 && world.period_s() <= 1)) throw WireError("a frame whose time step is not in (0, 1] s");
   run.world = loadWorld(decode(world.source()), {});
+  addRobots(world.added_robots(), run.world.fleet);
   run.world_version = world.world_version();
   run.period_s = world.period_s();
   run.may_operate = world.may_operate();

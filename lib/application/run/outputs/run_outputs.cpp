@@ -71,6 +71,12 @@ WorldSource readRunSource(const RunArguments& arguments) {
   return withChanges(source, arguments.changes, arguments.run.environment.seed);
 }
 
+std::string whyNoAdditions(const RunArguments& arguments) {
+  if (arguments.record.empty() || arguments.rawlog_format != "sf") return {};
+  return "robots cannot be added to a run whose recording has a file for each robot; record observations "
+         "(--rawlog-format obs)";
+}
+
 bool RunArguments::timeIsUp(const SimTime& now) const {
   // Tolerance of half a step against rounding of the limit.
   return now.seconds() + now.period_s / 2 > time_s;

@@ -30,6 +30,9 @@ struct RunArguments {
   bool timeIsUp(const SimTime& now) const;
 };
 
+/// Why no robot can be added during a run with these outputs; empty if robots can be added.
+std::string whyNoAdditions(const RunArguments& arguments);
+
 /// The world given by the arguments, including their changes. @throws ConfigError
 WorldSource readRunSource(const RunArguments& arguments);
 
