@@ -49,6 +49,40 @@ class InterventionTest(unittest.TestCase):
             self.assertEqual((check.returncode, check.stdout.split(",")[0]), (0, "The same run: 30 steps"),
                              check.stdout + check.stderr)
 
+    def test_adds_robots_as_the_recording_repeats(self):
+        with tempfile.TemporaryDirectory() as folder:
+            world = os.path.join(folder, "scene.xml")
+            with open(world, "w") as file:
+                file.write(scene.text())
+            rawlog = os.path.join(folder, "run.rawlog")
+            with robosim.Simulation(robosim.World.load(world), controller="wander") as simulation:
+                count = len(simulation.robots)
+                simulation.record(rawlog)
+                simulation.step(5)
+                poses = simulation.poses
+                before = simulation.save()
+                simulation.add_robot("New", "scout", 1, 3, heading=1.5)
+                self.assertEqual(len(poses), count)
+                self.assertEqual([robot.name for robot in simulation.robots][count:], ["New"])
+                self.assertEqual(simulation.poses[count].tolist(), [1, 3, 1.5])
+                with self.assertRaises(ValueError) as raised:
+                    simulation.add_robot("New", "scout", -1, 3)
+                self.assertIn("named 'New' already", str(raised.exception))
+                simulation.step(30)
+                self.assertNotEqual(simulation.poses[count].tolist(), [1, 3, 1.5])
+                saved, digest = simulation.save(), simulation.digest
+                simulation.stop_recording()
+                simulation.restore(before)
+                self.assertEqual(len(simulation.robots), count)
+                simulation.step(2)
+                simulation.restore(saved)
+                self.assertEqual((len(simulation.robots), simulation.digest), (count + 1, digest))
+                self.assertEqual(simulation.fork().digest, digest)
+            check = subprocess.run([os.path.join(os.environ["ROBOSIM_PREFIX"], "bin", "robosim"), "replay", "--check", world, rawlog],
+                                   capture_output=True, text=True)
+            self.assertEqual((check.returncode, check.stdout.split(",")[0]), (0, "The same run: 35 steps"),
+                             check.stdout + check.stderr)
+
     def test_says_what_is_wrong(self):
         with driven() as simulation:
             for call, fault in (

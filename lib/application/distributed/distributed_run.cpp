@@ -49,6 +49,17 @@ bool overlapOtherRanks(const std::vector<RobotRange>& from, const std::vector<Ro
   return false;
 }
 
+/// Each rank has a share of the robots of the start.
+void refuseAdditions(const World& world) {
+  for (const TimedChange& timed : world.timeline) {
+    const auto* robot = std::get_if<AddRobot>(&timed.change);
+    if (!robot) continue;
+    throw ConfigError("the world file adds the robot '" + robot->name +
+                      "' during the run, which is not possible on several ranks; run it on one rank, or give the world "
+                      "the robot from its start");
+  }
+}
+
 }  // namespace
 
 DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions options,
@@ -69,6 +80,7 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
   for (std::size_t i = shares_.home[own_].begin; i < shares_.home[own_].end; ++i) elsewhere[i] = 0;
   std::string identity;
   agree(group_, [&] {
+    if (group_.size() > 1) refuseAdditions(world.world);
     run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere);
     identity = describeIdentity(*run_->environment().model(), given, distribution_);
   });

@@ -9,6 +9,7 @@
 #include "recording/recording_error.h"
 #include "rendering/snapshot_run.h"
 #include "run/outputs/intervention_note.h"
+#include "run/outputs/recorded_fleet.h"
 #include "run/outputs/run_note.h"
 #include "viewing/foreign_recording.h"
 #include "viewing/recorded_objects.h"
@@ -36,7 +37,8 @@ class RobosimRecording final : public RecordedMoments {
       : file_(file),
         world_(loadWorld(note.world, {})),
         reader_(file, RawlogReader::Access::random),
-        steps_(reader_, robotsOf(world_), note.period_s, Pictures::leave_out) {
+        steps_(reader_, robotsOf(world_), note.period_s, Pictures::leave_out,
+               [this](const std::string& comment) { return addRecordedRobot(comment, world_.fleet); }) {
     Progress progress;
     for (;;) {
       const std::uint64_t place = steps_.position();

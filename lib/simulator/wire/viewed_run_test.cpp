@@ -65,6 +65,21 @@ TEST(ViewedRun, HasTheObjectsOfTheLastFrameWithAny) {
   EXPECT_THROW(update(run, frame), WireError);
 }
 
+TEST(ViewedRun, HasTheRobotsThatHaveBeenAddedWithTheirFrame) {
+  ViewedRun run = runAfter(firstFrame());
+  ASSERT_EQ(run.world.fleet.robots.size(), 2u);
+  v1::Frame frame = firstFrame();
+  frame.mutable_world()->add_added_robots(changeText(AddRobot{"new", "scout", {1, 2, 0}}));
+  EXPECT_THROW(update(run, frame), WireError) << "it does not show the new one";
+  encode(RobotSnapshot{}, 2, *frame.add_robots());
+  EXPECT_TRUE(update(run, frame));
+  ASSERT_EQ(run.snapshot.robots.size(), 3u);
+  EXPECT_EQ(run.world.fleet.robots[2].info.name, "new");
+  EXPECT_EQ(run.world.fleet.robots[2].info.model, "scout");
+  frame.mutable_world()->set_added_robots(0, "<remove name='a'/>");
+  EXPECT_THROW(update(run, frame), WireError);
+}
+
 TEST(ViewedRun, HasTheReadingsOfAFrameForThatFrameOnly) {
   const std::vector<Readings> measured = readingsOfTheMaze();
   ViewedRun run = runAfter(firstFrame());
