@@ -51,8 +51,10 @@ void addChanges(CLI::App& control, const std::function<void(const Change&)>& sup
   add_name(*remove, "of the robot or object");
 
   auto* add_object =
-      add("add", "add an object", [a] { return parseChange("<add>" + a->element + "</add>", "ELEMENT"); });
-  add_object->add_option("ELEMENT", a->element, "a <cylinder> or <cube> with its name, as in a world file, in metres")
+      add("add", "add an object or a robot", [a] { return parseChange("<add>" + a->element + "</add>", "ELEMENT"); });
+  add_object
+      ->add_option("ELEMENT", a->element,
+                   "a <cylinder> or <cube> with its name, or a <robot> of a type, as in a world file, in metres")
       ->required()
       ->type_name("XML");
 

@@ -54,9 +54,10 @@ void refuseAdditions(const World& world) {
   for (const TimedChange& timed : world.timeline) {
     const auto* robot = std::get_if<AddRobot>(&timed.change);
     if (!robot) continue;
-    throw ConfigError("the world file adds the robot '" + robot->name +
-                      "' during the run, which is not possible on several ranks; run it on one rank, or give the world "
-                      "the robot from its start");
+    throw ConfigError(
+        "the world file adds the robot '" + robot->name +
+        "' during the run, which is not possible on ranks; run it in one process, or give the world the robot from "
+        "its start");
   }
 }
 
@@ -80,7 +81,7 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
   for (std::size_t i = shares_.home[own_].begin; i < shares_.home[own_].end; ++i) elsewhere[i] = 0;
   std::string identity;
   agree(group_, [&] {
-    if (group_.size() > 1) refuseAdditions(world.world);
+    refuseAdditions(world.world);
     run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere);
     identity = describeIdentity(*run_->environment().model(), given, distribution_);
   });

@@ -175,6 +175,21 @@ TEST(DistributedRun, EqualsARunInOneProcessWhoseWorldFileChangesTheWorld) {
   EXPECT_EQ(outcomeOnRanks(settings, 3, 2, 7), alone);
 }
 
+TEST(DistributedRun, RefusesAWorldFileThatAddsRobots) {
+  Settings settings{"open_100", "wander", 10};
+  settings.timeline = {{1, AddRobot{"new", "scout", {}}, {}}};
+  for (const int ranks : {1, 3}) {
+    try {
+      outcomeOnRanks(settings, ranks, 1, 7);
+      FAIL();
+    } catch (const ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find("adds the robot 'new' during the run, which is not possible on ranks"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(DistributedRun, EqualsARunInOneProcessWhoseRobotsPushObjects) {
   for (const char* world : {"open_100", "pucks", "station"}) {
     Settings settings{world, "wander", 100};

@@ -105,7 +105,11 @@ class RobosimRecording final : public RecordedMoments {
   /// Robots without entries in the recording are not shown.
   void leaveOutMissing(const std::vector<RecordedRobot>& robots) {
     std::size_t i = 0;
-    std::erase_if(world_.fleet.robots, [&](const auto&) { return robots[i++].is_missing; });
+    std::erase_if(world_.fleet.robots, [&](const auto&) {
+      const bool is_missing = i < robots.size() && robots[i].is_missing;  // the others are added later
+      ++i;
+      return is_missing;
+    });
   }
 
   std::string file_;

@@ -112,9 +112,10 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
   newer[16] = 10;
-  EXPECT_EQ(errorOf(model, sealed(newer)),
-            "the saved state has version 10 of the format, and this program reads version 9; use the version of RoboSim "
-            "that saved it");
+  EXPECT_EQ(
+      errorOf(model, sealed(newer)),
+      "the saved state has version 10 of the format, and this program reads version 9; use the version of RoboSim "
+      "that saved it");
   Model other = model;
   other.seed = 2;
   EXPECT_EQ(errorOf(other, saved.bytes),
