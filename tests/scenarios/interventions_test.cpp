@@ -47,6 +47,20 @@ TEST(Interventions, OfAWorldFileAreRecordedAndRepeated) {
   EXPECT_EQ(check.out, "The same run: 81 steps, digest " + run["digest"].get<std::string>() + "\n") << check.err;
 }
 
+TEST(Interventions, OfAWorldFileThatAddRobotsAreRecordedAndRepeated) {
+  const auto world = written(corridor(
+      "<at time=\"2\"><add><robot model=\"pioneer3dx\" name=\"T\" x=\"4\" y=\"-1\"><controller>wander</controller>"
+      "</robot></add></at><at time=\"4\"><place name=\"T\" x=\"7\" y=\"-1\"/><remove name=\"S\"/></at>"));
+  for (const char* name : {"run.rawlog", "run.mcap"}) {
+    const auto recording = world.parent_path() / name;
+    const auto run = recordRun(quoted(world) + " --time 8", recording);
+    EXPECT_EQ(run["robots"], 3);
+    EXPECT_EQ(run["interventions"], 3);
+    const Ended check = runProgram("replay --check " + quoted(world) + " " + quoted(recording));
+    EXPECT_EQ(check.out, "The same run: 80 steps, digest " + run["digest"].get<std::string>() + "\n") << check.err;
+  }
+}
+
 TEST(Interventions, OfAWorldFileThatNameNothingInItAreRefusedWithTheirLine) {
   const auto world = written(corridor("\n<at time=\"2\"><remove name=\"pilar\"/></at>"));
   EXPECT_EQ(
@@ -95,6 +109,34 @@ TEST(Interventions, OfASupervisorAreRecordedWithTheirAuthorAndRepeated) {
   EXPECT_NE(other.out.find("the intervention of anyone is impossible now: 'pillar' is not the name of a robot"),
             std::string::npos)
       << other.out;
+}
+
+// A geometry worker computes half of the readings until the first is added.
+TEST(Interventions, ThatAddRobotsAreServedRecordedAndRepeated) {
+  const auto world = written(corridor(""));
+  const auto rawlog = world.parent_path() / "run.rawlog";
+  Serving serving({"--paused", "--time", "6", "--record", rawlog.string()}, world.string());
+  const auto worker = startWorker(serving.address());
+  serving.program().waitForError(": ready");
+  const auto control = [&](const std::string& arguments) {
+    return runProgram("control " + serving.address() + " " + arguments);
+  };
+  EXPECT_EQ(control("step 10").exit_code, 0);
+  const std::string with_controller =
+      "add '<robot model=\"scout\" name=\"T\" x=\"4\" y=\"-1\"><controller>wander</controller></robot>'";
+  EXPECT_EQ(control(with_controller).exit_code, 0);
+  EXPECT_EQ(control(with_controller).exit_code, 2) << "the name is taken";
+  EXPECT_EQ(control("step 10").exit_code, 0);
+  EXPECT_EQ(control("add '<robot model=\"pioneer3dx\" name=\"U\" x=\"6\" y=\"-1\"/>'").exit_code, 0);
+  serving.program().waitForError("waiting for U");
+  const auto robot = startRobots({"U"}, serving.address());
+  EXPECT_EQ(control("start").exit_code, 0);
+  const Ended served = serving.program().wait();
+  EXPECT_EQ(robot->wait().exit_code, 0);
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+  EXPECT_NE(served.out.find("robots         4"), std::string::npos) << served.out;
+  const Ended check = runProgram("replay --check " + quoted(world) + " " + quoted(rawlog));
+  EXPECT_TRUE(check.out.starts_with("The same run: 60 steps")) << check.out << check.err;
 }
 
 TEST(Interventions, NeedATokenOfASupervisorWhereTokensAreRequired) {
