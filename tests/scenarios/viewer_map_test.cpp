@@ -80,24 +80,6 @@ TEST(ViewerMap, ShowsObjectsAtTheirPresentPlaces) {
   EXPECT_EQ(moved->world_from_object->front(), with_puck->world->objects.front().world_from_object);
 }
 
-TEST(ViewerMap, ShowsARobotThatIsAdded) {
-  ServedWorld world(paused());
-  Panel panel(world);
-  ViewerMap map(world.connectOptions());
-  map.setWatched(true);
-  panel.load("worlds/open_100.xml");
-  EXPECT_EQ(mapNamed("open_100", map, panel)->robots.size(), 100u);
-  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/worlds/open_100.xml", {});
-  panel.supervise(RemoveBody{loaded.fleet.robots[0].info.name});
-  panel.supervise(AddRobot{"New", "scout", loaded.fleet.robots[0].world_from_start, "still"});
-  waitUntil("the map has the robot", [&] {
-    panel.status();
-    return map.newest()->world->robots.size() == 101;
-  });
-  EXPECT_EQ(map.newest()->world->robots.back().name, "New");
-  EXPECT_EQ(panel.status().robots(), 101u);
-}
-
 TEST(ViewerMap, FollowsALoadedWorldAndDisconnectsWithoutViewers) {
   ServedWorld world(paused());
   Panel panel(world);
