@@ -55,6 +55,11 @@ class ServedWorld final : private ServedRun {
     LocalRun run;
     RunInfo run_info;
     LoadedRun(LoadedWorld world, const WorldSource& source, const Options& options);
+    /// Their controllers are of this process.
+    void addRobots() {
+      run.followAdditions();
+      run_info.addRobots(std::vector<std::uint8_t>(run.environment().robotCount() - run_info.robot_names.size()));
+    }
   };
   struct PreparedWorld final : PreparedRun {
     std::shared_ptr<LoadedRun> loaded;
@@ -62,6 +67,7 @@ class ServedWorld final : private ServedRun {
   std::shared_ptr<LoadedRun> loadedRunOf(const WorldSource& source) const;
   Environment& environment() override { return run_->run.environment(); }
   std::shared_ptr<const RunInfo> runInfo() const override { return {run_, &run_->run_info}; }
+  void addRobots() override { run_->addRobots(); }
   void decide() override {
     run_->run.decide();
     setStepping(true);

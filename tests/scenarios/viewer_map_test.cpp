@@ -93,5 +93,25 @@ TEST(ViewerMap, FollowsALoadedWorldAndDisconnectsWithoutViewers) {
   waitUntil("the map's connection has ended", [&] { return panel.status().viewers() == 0; });
 }
 
+TEST(ViewerMap, ShowsARobotThatIsAdded) {
+  ServedWorld world(paused());
+  Panel panel(world);
+  ViewerMap map(world.connectOptions());
+  map.setWatched(true);
+  panel.load("worlds/open_100.xml");
+  EXPECT_EQ(mapNamed("open_100", map, panel)->robots.size(), 100u);
+  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/worlds/open_100.xml", {});
+  panel.supervise(RemoveBody{loaded.fleet.robots[0].info.name});
+  panel.supervise(AddRobot{"New", "scout", loaded.fleet.robots[0].world_from_start, "still"});
+  waitUntil("the map has the robot", [&] {
+    panel.status();
+    const auto view = map.newest();
+    EXPECT_EQ(view->problem, "");
+    return view->world && view->world->robots.size() == 101;
+  });
+  EXPECT_EQ(map.newest()->world->robots.back().name, "New");
+  EXPECT_EQ(panel.status().robots(), 101u);
+}
+
 }  // namespace
 }  // namespace robosim

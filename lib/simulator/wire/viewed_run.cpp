@@ -64,7 +64,8 @@ void loadWorldFrom(ViewedRun& run, const v1::Frame& frame) {
   run.snapshot.robots.assign(robots.size(), {});
   run.spare_readings.assign(robots.size(), {});
   if (static_cast<std::size_t>(frame.robots_size()) != robots.size()) {
-    throw WireError("a first frame that does not show every robot");
+    throw WireError("a first frame that shows " + std::to_string(frame.robots_size()) + " of " +
+                    std::to_string(robots.size()) + " robots");
   }
 }
 
