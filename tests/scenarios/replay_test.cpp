@@ -203,11 +203,12 @@ TEST(Replay, PrintsEveryValueInFullAsCommaSeparatedValues) {
   const std::string truth = csv("GROUND_TRUTH");
   EXPECT_EQ(truth.rfind("seconds,label,x_m,y_m,z_m,heading_rad\n0.0000000,Pioneer1/GROUND_TRUTH,", 0), 0u) << truth;
   const std::string status = csv("STATUS");
-  EXPECT_EQ(status.rfind(
-                "seconds,label,speed_mps,turn_radps,pan_command_rad,activity,by_driver,emergency_stop,pan_rad,stalled,"
-                "too_far,has_won\n0.0000000,Pioneer1/STATUS,0,0,0,0,0,0,0,0,0,0\n",
-                0),
-            0u)
+  EXPECT_EQ(
+      status.rfind(
+          "seconds,label,speed_mps,turn_radps,pan_command_rad,activity,by_driver,emergency_stop,grip,pan_rad,stalled,"
+          "too_far,has_won\n0.0000000,Pioneer1/STATUS,0,0,0,0,0,0,0,0,0,0,0\n",
+          0),
+      0u)
       << status;
   EXPECT_NE(refusalOf("replay --csv " + quoted(folder / "run.rawlog")).find("--print"), std::string::npos);
 }

@@ -173,7 +173,7 @@ TEST(ViewedRun, RefusesInvalidFrames) {
   EXPECT_EQ(complaint([](v1::Frame& f) { f.mutable_robots(0)->set_activity(static_cast<v1::Activity>(9)); }),
             "a frame with the unknown activity 9");
   EXPECT_EQ(complaint([](v1::Frame& f) { f.mutable_robots()->RemoveLast(); }),
-            "a first frame that does not show every robot");
+            "a first frame that shows 1 of 2 robots");
   EXPECT_EQ(complaint([](v1::Frame& f) { f.mutable_world()->set_period_s(0); }),
             "a frame whose time step is not in (0, 1] s");
   EXPECT_NE(complaint([](v1::Frame& f) { f.mutable_readings(0)->mutable_readings()->clear_measurements(); }), "");
