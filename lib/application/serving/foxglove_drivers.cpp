@@ -74,10 +74,10 @@ void FoxgloveDrivers::begin(LocalRun& run, const std::vector<std::string>& why_n
   by_topic_.clear();
   topic_of_.clear();
   const auto& robots = run.environment().fleet().robots;
-  const auto topicFor = [](const std::string& name) { return "/" + topicNamePart(name) + "/cmd_vel"; };
+  const auto topic_for = [](const std::string& name) { return "/" + topicNamePart(name) + "/cmd_vel"; };
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const std::string& name = robots[i].info.name;
-    by_topic_.try_emplace(topicFor(name), Driven{name, why_not_driven[i], nullptr, std::nullopt, {}});
+    by_topic_.try_emplace(topic_for(name), Driven{name, why_not_driven[i], nullptr, std::nullopt, {}});
   }
   run.wrapControllers([&](LocalHardware& hardware, std::unique_ptr<Controller> controller) {
     const Controller& suspended = *controller;
@@ -86,7 +86,7 @@ void FoxgloveDrivers::begin(LocalRun& run, const std::vector<std::string>& why_n
         RemoteControlRobot::Options{
             .now = now_, .log = [this](const std::string& line) { log_.write("robots that Foxglove drives", line); }});
     const std::string& name = hardware.info().name;
-    const std::string topic = topicFor(name);
+    const std::string topic = topic_for(name);
     if (Driven& driven = by_topic_.at(topic); driven.name == name) {
       driven.remote = remote;
       topic_of_["/" + topicNamePart(name) + "/autonomous"] = topic;

@@ -88,7 +88,8 @@ void Hub::beginRound() {
   has_fresh_ = false;
 }
 
-void Hub::send(std::size_t channel, Audience audience, std::uint64_t time_ns, Payload payload, bool latest_only) {
+void Hub::send(std::size_t channel, Audience audience, std::uint64_t time_ns, const Payload& payload,
+               bool latest_only) {
   const std::lock_guard lock(mutex_);
   for (const auto& subscription : subscriptions_[channel]) {
     using State = Subscription::State;

@@ -108,7 +108,8 @@ class Hub {
   /// Whether any client has subscribed since the last round.
   bool hasFresh() const;
   /// @param latest_only whether the message makes those of the channel before it obsolete
-  void send(std::size_t channel, Audience audience, std::uint64_t time_ns, Payload payload, bool latest_only = false);
+  void send(std::size_t channel, Audience audience, std::uint64_t time_ns, const Payload& payload,
+            bool latest_only = false);
   void sendTime(std::uint64_t time_ns);
   void endRound();
 
