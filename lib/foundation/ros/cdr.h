@@ -40,7 +40,7 @@ class CdrWriter {
 
   template <Message M>
   void write(const M& message) {
-    M::describe(message, [this](const char*, const auto& field) { write(field); });
+    M::describe(message, [&](const char*, const auto& field) { write(field); });
   }
   void write(bool value) { bytes_.push_back(value ? 1 : 0); }
   template <typename T>
@@ -87,7 +87,7 @@ class CdrReader {
   /// @throws CdrError when the bytes end before the message does, or cannot be of it.
   template <Message M>
   void read(M& message) {
-    M::describe(message, [this](const char*, auto& field) { read(field); });
+    M::describe(message, [&](const char*, auto& field) { read(field); });
   }
   void read(bool& value);
   template <typename T>
