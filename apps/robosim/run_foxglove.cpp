@@ -35,8 +35,9 @@ EndedBy serveRun(LocalRun& run, const RunArguments& arguments, const std::string
   const Interrupt interrupt;
   const FoxgloveOptions options = localOptions(address);
   FoxgloveServing serving(options);
-  serving.begin(run, std::to_string(std::random_device()()), arguments.run.environment.seed,
-                std::vector<std::string>(run.environment().robotCount()));
+  const std::string run_id = std::to_string(std::random_device()());
+  std::vector<std::string> why_not_driven(run.environment().robotCount());
+  serving.begin(run, run_id, arguments.run.environment.seed, why_not_driven);
   logInfo("run", foxgloveLine(options.server, serving.port()));
   RunControl control;
   control.speed = speed;
@@ -54,6 +55,11 @@ EndedBy serveRun(LocalRun& run, const RunArguments& arguments, const std::string
       continue;
     }
     run.step(observe);
+    if (run.environment().robotCount() != why_not_driven.size()) {
+      run.followAdditions();
+      why_not_driven.resize(run.environment().robotCount());
+      serving.addRobots(run, run_id, why_not_driven);
+    }
     serving.stepped();
     if (control.steps_left > 0) --control.steps_left;
     if (control.speed > 0) due += fromSeconds(run.environment().time().period_s / control.speed);

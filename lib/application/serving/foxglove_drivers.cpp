@@ -73,6 +73,16 @@ void FoxgloveDrivers::begin(LocalRun& run, const std::vector<std::string>& why_n
   const std::lock_guard lock(mutex_);
   by_topic_.clear();
   topic_of_.clear();
+  wrapNew(run, why_not_driven);
+}
+
+void FoxgloveDrivers::addRobots(LocalRun& run, const std::vector<std::string>& why_not_driven) {
+  const std::lock_guard lock(mutex_);
+  wrapNew(run, why_not_driven);
+}
+
+/// @pre holds the mutex
+void FoxgloveDrivers::wrapNew(LocalRun& run, const std::vector<std::string>& why_not_driven) {
   const auto& robots = run.environment().fleet().robots;
   const auto topic_for = [](const std::string& name) { return "/" + topicNamePart(name) + "/cmd_vel"; };
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -80,18 +90,18 @@ void FoxgloveDrivers::begin(LocalRun& run, const std::vector<std::string>& why_n
     by_topic_.try_emplace(topic_for(name), Driven{name, why_not_driven[i], nullptr, std::nullopt, {}});
   }
   run.wrapControllers([&](LocalHardware& hardware, std::unique_ptr<Controller> controller) {
+    const std::string& name = hardware.info().name;
+    const std::string topic = topic_for(name);
+    Driven& driven = by_topic_.at(topic);
+    // Of robots with one topic, the first is driven.
+    if (driven.name != name || driven.remote) return controller;
     const Controller& suspended = *controller;
-    const auto remote = std::make_shared<RemoteControlRobot>(
+    driven.remote = std::make_shared<RemoteControlRobot>(
         hardware, std::move(controller),
         RemoteControlRobot::Options{
             .now = now_, .log = [this](const std::string& line) { log_.write("robots that Foxglove drives", line); }});
-    const std::string& name = hardware.info().name;
-    const std::string topic = topic_for(name);
-    if (Driven& driven = by_topic_.at(topic); driven.name == name) {
-      driven.remote = remote;
-      topic_of_["/" + topicNamePart(name) + "/autonomous"] = topic;
-    }
-    return std::make_unique<DrivenController>(remote, suspended);
+    topic_of_["/" + topicNamePart(name) + "/autonomous"] = topic;
+    return std::unique_ptr<Controller>(std::make_unique<DrivenController>(driven.remote, suspended));
   });
 }
 

@@ -23,7 +23,7 @@ namespace robosim {
 /// apply. The first message takes the robot from its controller, which continues when /<robot>/autonomous is set.
 /// Another client takes over when the driver has left, or has been silent for that time.
 ///
-/// begin() is called by the thread that steps the run; all other functions are thread-safe.
+/// begin() and addRobots() are called by the thread that steps the run; all other functions are thread-safe.
 class FoxgloveDrivers final : public foxglove::PublicationHandler {
  public:
   using Clock = RemoteControlRobot::Clock;
@@ -35,6 +35,8 @@ class FoxgloveDrivers final : public foxglove::PublicationHandler {
   /// Drives the robots of this run, and no longer those of the one before, which must still exist.
   /// @param why_not_driven by robot: why it cannot be driven; empty if its controller is in this process
   void begin(LocalRun& run, const std::vector<std::string>& why_not_driven);
+  /// Drives the robots that have been added to the run, too. @param why_not_driven as begin(), of all robots
+  void addRobots(LocalRun& run, const std::vector<std::string>& why_not_driven);
 
   /// The parameters /<robot>/autonomous, and whether the robot is.
   std::vector<std::pair<std::string, bool>> autonomous() const;
@@ -54,6 +56,7 @@ class FoxgloveDrivers final : public foxglove::PublicationHandler {
     std::optional<foxglove::Client> driver;
     Clock::time_point last_message;
   };
+  void wrapNew(LocalRun& run, const std::vector<std::string>& why_not_driven);
   std::string refusal(const foxglove::Client& client, const Driven* robot) const;
 
   Access access_;

@@ -98,6 +98,22 @@ TEST_F(FoxgloveDriversTest, StopsARobotWhoseDriverHasLeft) {
   EXPECT_FALSE(drivers.autonomous()[0].second);
 }
 
+TEST_F(FoxgloveDriversTest, DrivesOnWhenARobotIsAddedAndDrivesThatToo) {
+  drive(anna(), 0.2);
+  ASSERT_EQ(run.environment().apply({"test", AddRobot{"New", "scout", {0, 0, 0}}}), "");
+  run.followAdditions();
+  drivers.addRobots(run, {"", "", ""});
+  EXPECT_EQ(command().speed_mps, 0.2) << "the driver stays";
+  EXPECT_EQ(drive(anna(), 0.1), "");
+  EXPECT_EQ(command().speed_mps, 0.1);
+  EXPECT_EQ(drivers.setAutonomous(anna(), "/Pioneer1/autonomous", true), "");
+  EXPECT_FALSE(command().by_driver) << "the controller continues";
+  const foxglove::ClientChannel of_new{2, "/New/cmd_vel", "json", "geometry_msgs/Twist"};
+  EXPECT_EQ(drivers.published(anna(), {of_new, R"({"linear":{"x":0.3}})"}), "");
+  run.step();
+  EXPECT_EQ(run.environment().state().commands[2].speed_mps, 0.3);
+}
+
 TEST_F(FoxgloveDriversTest, LimitsTheSpeedToThatOfTheRobot) {
   const double speed_max_mps = run.environment().fleet().robots[0].info.limits.speed_max_mps;
   drive(anna(), 1e9);

@@ -68,9 +68,19 @@ FoxgloveServing::~FoxgloveServing() = default;
 void FoxgloveServing::begin(LocalRun& run, const std::string& run_id, std::uint64_t seed,
                             const std::vector<std::string>& why_not_driven) {
   drivers_.begin(run, why_not_driven);
-  feed_.emplace(server_.hub(), run.environment());
   world_ = run.environment().world().name;
   seed_ = seed;
+  offer(run.environment(), run_id);
+}
+
+void FoxgloveServing::addRobots(LocalRun& run, const std::string& run_id,
+                                const std::vector<std::string>& why_not_driven) {
+  drivers_.addRobots(run, why_not_driven);
+  offer(run.environment(), run_id);
+}
+
+void FoxgloveServing::offer(const Environment& environment, const std::string& run_id) {
+  feed_.emplace(server_.hub(), environment);
   server_.hub().offer({{"RoboSim: " + world_,
                         {"time", "clientPublish", "parameters", "parametersSubscribe", "services"},
                         {"cdr", "json"},

@@ -47,6 +47,9 @@ class FoxgloveServing {
   /// @param why_not_driven by robot: why it cannot be driven; empty if this process has its controller
   void begin(LocalRun& run, const std::string& run_id, std::uint64_t seed,
              const std::vector<std::string>& why_not_driven);
+  /// Offers the robots that have been added to the run, too. Clients receive the list of topics again. Parameters as of
+  /// begin()
+  void addRobots(LocalRun& run, const std::string& run_id, const std::vector<std::string>& why_not_driven);
   /// Handles requests, and sends the state to new clients. Between steps, at least every ServingState::kPollInterval.
   void poll(RunControl& control, const FoxgloveRecording& recording);
   /// Sends the messages of a step.
@@ -55,6 +58,7 @@ class FoxgloveServing {
   std::vector<std::uint8_t> pictured() const { return feed_->pictured(); }
 
  private:
+  void offer(const Environment& environment, const std::string& run_id);
   std::vector<foxglove::Parameter> parameters(const RunControl& control, const FoxgloveRecording& recording) const;
   void change(const foxglove::ParameterChange& change, RunControl& control, const FoxgloveRecording& recording);
   std::string setParameter(const foxglove::Client& client, const foxglove::Parameter& parameter, RunControl& control,

@@ -174,7 +174,7 @@ WorldRun::WorldRun(WorldRunOptions options)
   logArcosPorts();
   if (!options_.foxglove) return;
   foxglove_ = std::make_unique<FoxgloveServing>(*options_.foxglove);
-  beginFoxglove();
+  foxglove_->begin(run_->run, run_->run_info.run_id, run_->run_info.seed, whyNotDriven());
   const auto& server = options_.foxglove->server;
   server.log(foxgloveLine(server, foxglove_->port()));
 }
@@ -215,10 +215,12 @@ void WorldRun::logArcosPorts() const {
 void WorldRun::addRobots() {
   const std::size_t before = run_->networked.size();
   run_->addRobots(options_);
-  if (foxglove_ && run_->networked.size() != before) beginFoxglove();  // with the topics of the new robot
+  if (foxglove_ && run_->networked.size() != before) {
+    foxglove_->addRobots(run_->run, run_->run_info.run_id, whyNotDriven());
+  }
 }
 
-void WorldRun::beginFoxglove() {
+std::vector<std::string> WorldRun::whyNotDriven() const {
   std::vector<std::string> why_not_driven;
   for (std::size_t i = 0; i < run_->networked.size(); ++i) {
     why_not_driven.emplace_back(run_->is_arcos[i]    ? "an ARCOS program drives this robot"
@@ -226,7 +228,7 @@ void WorldRun::beginFoxglove() {
                                                        "'robosim remote'"
                                                      : "");
   }
-  foxglove_->begin(run_->run, run_->run_info.run_id, run_->run_info.seed, why_not_driven);
+  return why_not_driven;
 }
 
 void WorldRun::poll(RunControl& control) {
@@ -311,7 +313,7 @@ void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
   arcos_ = std::move(prepared.arcos);  // the previous one uses the run that is replaced
   const auto previous = std::exchange(run_, std::move(prepared.run));
   pictured_.clear();
-  if (foxglove_) beginFoxglove();
+  if (foxglove_) foxglove_->begin(run_->run, run_->run_info.run_id, run_->run_info.seed, whyNotDriven());
   run_->start = std::chrono::steady_clock::now();
   ++number_;
   logArcosPorts();

@@ -65,7 +65,8 @@ class WorldRun final : public ServedRun {
   std::shared_ptr<OneRun> load(WorldSource source, int number) const;
   std::unique_ptr<ArcosServer> makeArcosServer(OneRun& run) const;
   void logArcosPorts() const;
-  void beginFoxglove();
+  /// By robot, why Foxglove cannot drive it; empty if it can.
+  std::vector<std::string> whyNotDriven() const;
 
   WorldRunOptions options_;
   std::shared_ptr<OneRun> run_;                ///< shared with viewers
