@@ -130,10 +130,6 @@ class DrivenPlanner {
   }
 
   bool isRobot(std::uint32_t moving) const { return moving < around_.paths.size(); }
-  bool isHeld(std::size_t object) const {
-    return std::any_of(around_.held.begin(), around_.held.end(),
-                       [&](const auto& held) { return held.object == object; });
-  }
   TPoint2D centerOfMoving(std::uint32_t moving) const {
     if (!isRobot(moving)) return centerOf(around_.objects[moving - around_.paths.size()]);
     const auto& pose = around_.paths[moving].world_from_start;
@@ -209,7 +205,8 @@ class DrivenPlanner {
       }
       const std::size_t other = moving - around_.paths.size();
       const MovableBody& in_way = around_.bodies[other];
-      return other != k && (in_way.isDriven() || isHeld(other)) && in_way.heights.overlaps(body.heights) &&
+      return other != k && (in_way.isDriven() || heldIndexOf(around_.held, other)) &&
+             in_way.heights.overlaps(body.heights) &&
              distance(ahead, in_way.outlineAt(around_.objects[other].world_from_object)) == 0;
     });
   }

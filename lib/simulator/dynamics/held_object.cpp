@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "base/portable_math.h"
+#include "base/portable_pose.h"
 
 namespace robosim {
 
 mrpt::math::TPose2D HeldObject::poseAt(const mrpt::math::TPose2D& world_from_robot) const {
-  const auto [sin, cos] = portable::sincos(world_from_robot.phi);
-  const auto& offset = robot_from_object;
-  return {world_from_robot.x + cos * offset.x - sin * offset.y, world_from_robot.y + sin * offset.x + cos * offset.y,
-          world_from_robot.phi + offset.phi};
+  const auto center =
+      portable::compose(world_from_robot, mrpt::math::TPoint2D(robot_from_object.x, robot_from_object.y));
+  return {center.x, center.y, world_from_robot.phi + robot_from_object.phi};
 }
 
 Path HeldObject::pathOf(const Path& of_robot) const {
@@ -31,6 +31,13 @@ const HeldObject* heldBy(std::span<const HeldObject> held, std::size_t robot) {
   const auto found = std::lower_bound(held.begin(), held.end(), robot,
                                       [](const HeldObject& one, std::size_t of) { return one.robot < of; });
   return found != held.end() && found->robot == robot ? &*found : nullptr;
+}
+
+std::optional<std::uint32_t> heldIndexOf(std::span<const HeldObject> held, std::size_t object) {
+  for (std::uint32_t h = 0; h < held.size(); ++h) {
+    if (held[h].object == object) return h;
+  }
+  return std::nullopt;
 }
 
 }  // namespace robosim

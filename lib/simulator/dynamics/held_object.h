@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include <mrpt/math/TPose2D.h>
@@ -28,5 +29,7 @@ struct HeldObject {
 
 /// What a robot holds; null for nothing. @param held in ascending order of robots
 const HeldObject* heldBy(std::span<const HeldObject> held, std::size_t robot);
+/// The place in the list of an object that a robot holds. @param object index among the movable objects
+std::optional<std::uint32_t> heldIndexOf(std::span<const HeldObject> held, std::size_t object);
 
 }  // namespace robosim

@@ -97,14 +97,8 @@ struct ObjectMover::Search {
   /// @param moving index in the scene, of robots and then objects
   std::uint32_t bodyOfMoving(std::uint32_t moving) const {
     if (moving < robotCount()) return moving;
-    const auto h = heldIndex(moving - robotCount());
+    const auto h = heldIndexOf(held, moving - robotCount());
     return h ? robotCount() + *h : bodyOf(moving - robotCount());
-  }
-  std::optional<std::uint32_t> heldIndex(std::size_t object) const {
-    for (std::uint32_t h = 0; h < held.size(); ++h) {
-      if (held[h].object == object) return h;
-    }
-    return std::nullopt;
   }
   /// The other disc of a robot that holds an object, of one of its discs; nullopt for other bodies.
   std::optional<std::uint32_t> partnerOf(std::uint32_t body) const {
@@ -148,7 +142,7 @@ struct ObjectMover::Search {
   /// Objects that move or stand on a belt, or that a robot drives against.
   void begin() {
     for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (heldIndex(k)) continue;
+      if (heldIndexOf(held, k)) continue;
       const bool is_driven_on = !plans.empty() && plans[k].way_m > 0;
       if (is_driven_on || !objects[k].isAtRest() || isCarried(k)) add(bodyOf(k));
     }

@@ -3,21 +3,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/portable_math.h"
+#include "base/portable_pose.h"
 #include "environment/environment_impl.h"
 
 namespace robosim {
-namespace {
-
-/// @return the pose of a body in the frame of another
-mrpt::math::TPose2D inFrameOf(const mrpt::math::TPose2D& world_from_frame, const mrpt::math::TPose2D& world_from_body) {
-  const auto [sin, cos] = portable::sincos(world_from_frame.phi);
-  const double x_m = world_from_body.x - world_from_frame.x;
-  const double y_m = world_from_body.y - world_from_frame.y;
-  return {cos * x_m + sin * y_m, cos * y_m - sin * x_m, world_from_body.phi - world_from_frame.phi};
-}
-
-}  // namespace
 
 void Environment::Impl::noteHeld() {
   held.clear();
@@ -38,9 +27,8 @@ void Environment::Impl::noteHeld() {
 }
 
 void Environment::Impl::openGrippers() {
-  std::erase_if(state.closed_grippers,
-                [&](const ClosedGripper& gripper) { return !state.commands[gripper.robot].grip; });
-  noteHeld();
+  const auto opens = [&](const ClosedGripper& gripper) { return !state.commands[gripper.robot].grip; };
+  if (std::erase_if(state.closed_grippers, opens) > 0) noteHeld();
 }
 
 void Environment::Impl::closeGrippers() {
@@ -73,12 +61,13 @@ std::optional<HeldObject> Environment::Impl::objectBetweenPaddles(std::uint32_t 
     if (moving < fleet().robots.size()) continue;
     const auto object = static_cast<std::uint32_t>(moving - fleet().robots.size());
     const MovableBody& body = bodies.movable()[object];
-    const bool is_taken =
-        std::any_of(held.begin(), held.end(), [&](const HeldObject& one) { return one.object == object; });
+    const bool is_taken = heldIndexOf(held, object).has_value();
     const bool is_too_heavy = body.friction_n > fleet().robots[robot].model->push_max_n;
     if (body.isDriven() || is_taken || is_too_heavy) continue;
     if (gripper.z_m < body.heights.z_min_m || gripper.z_m > body.heights.z_max_m) continue;
-    const auto robot_from_object = inFrameOf(pose, motions[object].world_from_object);
+    const auto& placed = motions[object].world_from_object;
+    auto robot_from_object = portable::relative(pose, placed);
+    robot_from_object.phi = placed.phi - pose.phi;  // without wrapping, which rounds
     if (!gripper.isBetweenPaddles({robot_from_object.x, robot_from_object.y}, body.covering_radius_m)) continue;
     if (nearest && nearest->robot_from_object.x <= robot_from_object.x) continue;
     nearest = HeldObject{robot, object, robot_from_object, body.covering_radius_m, body.heights};

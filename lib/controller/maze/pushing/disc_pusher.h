@@ -35,8 +35,8 @@ double pushError(const PushTask& task, const mrpt::math::TPose2D& map_from_robot
 /// both turns to the target.
 void pushDisc(Robot& robot, const mrpt::math::TPose2D& map_from_robot, const PushTask& task, double speed_mps);
 
-/// Drives to a disc with the gripper open, and closes it when the disc is between the paddles. Robot::held() tells in
-/// the next step whether it holds it; if not, the gripper opens again.
+/// Drives to a disc with the gripper open, and closes it when the disc is between the paddles. In the next step,
+/// Robot::held() is whether it holds the disc; if not, the gripper opens again.
 /// @param disc its centre, map frame
 void gripDisc(Robot& robot, const mrpt::math::TPose2D& map_from_robot, const mrpt::math::TPoint2D& disc,
               double radius_m, double speed_mps);
