@@ -3,8 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include <mrpt/math/wrap2pi.h>
-
 #include "base/nearest_name.h"
 #include "robots/ray_budget.h"
 #include "robots/robot_colors.h"
@@ -45,22 +43,12 @@ std::shared_ptr<const RobotModel> modelOfType(const std::string& type, Fleet& fl
 }  // namespace
 
 Fleet withRobot(Fleet fleet, const AddRobot& added) {
-  const auto model = modelOfType(added.model, fleet);
-  FleetRobot robot;
-  robot.info = {.name = added.name,
-                .model = model->name,
-                .neighbour = added.neighbour,
-                .radius_m = model->radius_m,
-                .height_m = model->body.height_m,
-                .limits = model->limits,
-                .sensors = model->sensor_infos};
-  robot.world_from_start = added.world_from_robot;
-  robot.world_from_start.phi = mrpt::math::wrapToPi(robot.world_from_start.phi);
-  robot.body = model->body;
-  robot.body.world_from_body = robot.world_from_start;
-  robot.controller = added.controller;
-  robot.model = model;
-  fleet.robots.push_back(std::move(robot));
+  RobotPlacement placement;
+  placement.name = added.name;
+  placement.world_from_robot = added.world_from_robot;
+  placement.neighbour = added.neighbour;
+  placement.controller = added.controller;
+  fleet.robots.push_back(placedRobot(placement, modelOfType(added.model, fleet)));
   setColorOfLast(fleet, added.color);
   RayBudget budget;
   for (const FleetRobot& one : fleet.robots) {

@@ -42,7 +42,14 @@ class ControllerFaults {
   std::unordered_map<std::string, std::string> faults_;
 };
 
-FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model) {
+RobotStart startOf(const RobotPlacement& placement, const FleetRobot& robot) {
+  const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
+  return {placement.name, placement.line, disc, robot.body.heights(), robot.body.solid().outline};
+}
+
+}  // namespace
+
+FleetRobot placedRobot(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model) {
   FleetRobot robot;
   robot.info = {.name = placement.name,
                 .model = model->name,
@@ -60,13 +67,6 @@ FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotMode
   robot.model = std::move(model);
   return robot;
 }
-
-RobotStart startOf(const RobotPlacement& placement, const FleetRobot& robot) {
-  const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
-  return {placement.name, placement.line, disc, robot.body.heights(), robot.body.solid().outline};
-}
-
-}  // namespace
 
 Fleet buildFleet(const World& world, const std::string& world_file, const RobotTypes& types,
                  const ControllerCheck& check_controller, ErrorList& errors) {
@@ -91,7 +91,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
                  "robot '" + placement.name + "': with it " + excess + "; use fewer robots, or sensors of fewer beams");
       break;
     }
-    fleet.robots.push_back(made(placement, std::move(model)));
+    fleet.robots.push_back(placedRobot(placement, std::move(model)));
     starts.push_back(startOf(placement, fleet.robots.back()));
   }
   const bool has_all = fleet.robots.size() == world.robots.size();
@@ -139,7 +139,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
   fleet.robots.reserve(world.robots.size());
   starts.reserve(world.robots.size());
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
-    fleet.robots.push_back(made(world.robots[i], alike.robots[i].model));
+    fleet.robots.push_back(placedRobot(world.robots[i], alike.robots[i].model));
     starts.push_back(startOf(world.robots[i], fleet.robots.back()));
   }
   setRobotColors(world, fleet);

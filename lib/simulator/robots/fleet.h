@@ -43,6 +43,9 @@ constexpr std::size_t kWorldBeamsMax = 50'000'000;     ///< beams of all robots'
 constexpr std::size_t kWorldModelRaysMax = 2'000'000;  ///< Sensor::rayCount() of all robot models, each counted once
 ///@}
 
+/// A placed robot with its model, in the colour of its placement or body.
+FleetRobot placedRobot(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model);
+
 /// Checks a controller of a world file, given as TypeChoice::text(). @throws ConfigError
 using ControllerCheck = std::function<void(const std::string& controller)>;
 
