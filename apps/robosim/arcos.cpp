@@ -87,7 +87,7 @@ void addArcos(CLI::App& program) {
   command
       ->add_option("-R,--robot-factory", a->serve.arcos_factory,
                    "a robot of this type for each program that connects, at a random free place, on one port; it "
-                   "leaves with the program. NUMBER: the most at once; default: 32, or as many as there is room for")
+                   "leaves with the program. NUMBER: the most at once, by default 32")
       ->type_name("TYPE[:NUMBER]");
   command->add_option("--start", a->start, "start pose of the first robot, in millimetres and degrees")
       ->type_name("X,Y,HEADING");

@@ -106,28 +106,35 @@ void logPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
   logInfo("serve", line);
 }
 
-/// Robots of --arcos-factory without a number, as far as there is room.
-constexpr int kFactoryRobots = 32;
 constexpr double kUnlimited_s = 1e9;
 
-/// The robots of --arcos-factory, "MODEL" or "MODEL:NUMBER". @throws ConfigError
-void addFactoryRobots(const std::string& factory, WorldChanges& changes) {
-  const std::size_t colon = std::min(factory.find(':'), factory.size());
-  int count = kFactoryRobots;
-  if (colon < factory.size()) {
-    const char* const end = factory.data() + factory.size();
-    const auto [stop, error] = std::from_chars(factory.data() + colon + 1, end, count);
-    if (error != std::errc{} || stop != end || count < 1 || count > 10000) {
-      throw ConfigError("--arcos-factory " + factory + ": must be a robot type, optionally with a number from 1 to " +
-                        "10000, as in p3dx or p3dx:20");
+/// The robots of --arcos-factory: "MODEL" or "MODEL:NUMBER".
+struct Factory {
+  std::string model;
+  std::size_t most = 32;
+
+  /// @throws ConfigError
+  static Factory parse(const std::string& text) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    Factory factory{text.substr(0, colon)};
+    if (colon == text.size()) return factory;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + colon + 1, end, factory.most);
+    if (error != std::errc{} || stop != end || factory.most < 1 || factory.most > kAddedRobotsMax) {
+      throw ConfigError("--arcos-factory " + text + ": must be a robot type, optionally with a number from 1 to " +
+                        std::to_string(kAddedRobotsMax) + ", as in p3dx or p3dx:20");
     }
+    return factory;
   }
+};
+
+/// Adds the first robot of a factory; the others are added for programs.
+void addFactoryRobot(const std::string& factory, WorldChanges& changes) {
   if (changes.random_robots > 0) {
     throw ConfigError("--arcos-factory and --random-robots both add robots; use one of them");
   }
-  changes.random_robots = count;
-  changes.may_add_fewer = colon == factory.size();
-  changes.random_model = factory.substr(0, colon);
+  changes.random_robots = 1;
+  changes.random_model = Factory::parse(factory).model;
 }
 
 /// @throws ConfigError for options that do not fit
@@ -149,7 +156,11 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
     throw ConfigError("--step must divide the cycle of ARCOS, 0.1 s, as 0.1, 0.05 and 0.02 do");
   }
   options.has_all = arguments.arcos_all;
-  options.is_factory = !arguments.arcos_factory.empty();
+  if (!arguments.arcos_factory.empty()) {
+    const Factory factory = Factory::parse(arguments.arcos_factory);
+    options.factory = factory.model;
+    options.factory_most = factory.most;
+  }
   const double speed = speedNumber(arguments.of_run.speed);
   options.speed = speed > 0 ? speed : 1;
   options.log = [](const std::string& line) { logInfo("serve", line); };
@@ -177,7 +188,7 @@ std::optional<FoxgloveOptions> foxgloveOptions(const ServeArguments& arguments, 
 void serveWorld(const ServeArguments& arguments) {
   Interrupt interrupt;
   RunArguments of_run = arguments.of_run;
-  if (!arguments.arcos_factory.empty()) addFactoryRobots(arguments.arcos_factory, of_run.changes);
+  if (!arguments.arcos_factory.empty()) addFactoryRobot(arguments.arcos_factory, of_run.changes);
   checkRunArguments(of_run);
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   const ServerOptions options = serverOptions(arguments);
@@ -210,8 +221,7 @@ void addArcosOptions(CLI::App& command, ServeArguments& arguments) {
   dependsOn(command
                 .add_option("--arcos-factory", arguments.arcos_factory,
                             "serve ARCOS programs on one port: for each, a robot of this type comes to a random free "
-                            "place, and leaves with the program. NUMBER: the most at once; default: 32, or as many as "
-                            "there is room for")
+                            "place, and leaves with the program. NUMBER: the most at once, by default 32")
                 ->type_name("TYPE[:NUMBER]"),
             arcos);
   dependsOn(command.add_flag("--arcos-all", arguments.arcos_all,

@@ -2,8 +2,11 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
@@ -30,6 +33,35 @@ TEST(ArcosPrograms, OnAMapAreRepeatedFromTheRecordingAndTheMap) {
   robot.waitForError("connected to MobileSim (p3at)");
   robot.interrupt();
   EXPECT_EQ(robot.wait().exit_code, 0);
+  server.interrupt();
+  EXPECT_EQ(server.wait().exit_code, 0);
+  const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_TRUE(check.out.starts_with("The same run: ")) << check.out;
+}
+
+TEST(ArcosPrograms, EachGetARobotThatIsAddedForThemAndAreRepeatedFromTheRecording) {
+  const auto rawlog = emptyFolder() / "run.rawlog";
+  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "18431", "--listen", "127.0.0.1:0",
+                         "--speed", "20", "--record", rawlog.string()});
+  server.waitForError("up to 3 robots, one for each ARCOS program on 127.0.0.1:18431");
+  std::vector<std::unique_ptr<StartedProgram>> programs;
+  for (const char* name : {"Robot1", "Robot2", "Robot3"}) {
+    programs.push_back(std::make_unique<StartedProgram>(
+        std::vector<std::string>{"robot", "--arcos", "tcp:127.0.0.1:18431", "--controller", "wander"}));
+    server.waitForError(std::string("robot ") + name + ": connected");
+  }
+  StartedProgram fourth({"robot", "--arcos", "tcp:127.0.0.1:18431", "--controller", "wander"});
+  server.waitForError("all 3 robots have a program or cannot enter");
+  EXPECT_NE(fourth.wait().exit_code, 0);
+  for (const auto& program : programs) {
+    program->interrupt();
+    EXPECT_EQ(program->wait().exit_code, 0);
+  }
+  StartedProgram next({"robot", "--arcos", "tcp:127.0.0.1:18431", "--controller", "wander"});
+  next.waitForError("connected to MobileSim (p3dx)");
+  next.interrupt();
+  EXPECT_EQ(next.wait().exit_code, 0);
   server.interrupt();
   EXPECT_EQ(server.wait().exit_code, 0);
   const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));

@@ -44,7 +44,8 @@ struct ServedRobots {
     environment = std::make_unique<Environment>(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
     ArcosOptions options;
     options.listen = "127.0.0.1:0";
-    options.is_factory = is_factory;
+    if (is_factory) options.factory = "p3dx";
+    options.factory_most = 1;
     for (const auto i : indices) {
       if (is_factory) environment->remove(i);
     }

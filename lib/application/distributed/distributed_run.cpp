@@ -49,18 +49,6 @@ bool overlapOtherRanks(const std::vector<RobotRange>& from, const std::vector<Ro
   return false;
 }
 
-/// Each rank has a share of the robots of the start.
-void refuseAdditions(const World& world) {
-  for (const TimedChange& timed : world.timeline) {
-    const auto* robot = std::get_if<AddRobot>(&timed.change);
-    if (!robot) continue;
-    throw ConfigError(
-        "the world file adds the robot '" + robot->name +
-        "' during the run, which is not possible on ranks; run it in one process, or give the world the robot from "
-        "its start");
-  }
-}
-
 }  // namespace
 
 DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions options,
@@ -79,9 +67,10 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
   options.environment.share = RobotShare{shares_.kept(own_), shares_.digested[own_]};
   std::vector<std::uint8_t> elsewhere(shares_.robots, 1);
   for (std::size_t i = shares_.home[own_].begin; i < shares_.home[own_].end; ++i) elsewhere[i] = 0;
+  options.is_added_elsewhere = [this](const FleetRobot&) { return own_ + 1 < shares_.ranks(); };
+  options.checks_added_elsewhere = true;
   std::string identity;
   agree(group_, [&] {
-    refuseAdditions(world.world);
     run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere);
     identity = describeIdentity(*run_->environment().model(), given, distribution_);
   });
@@ -103,6 +92,17 @@ void DistributedRun::setWork(const std::vector<RobotRange>& work) {
   if (!near_) motion_of_ = {listOf(work[own_])};
 }
 
+void DistributedRun::followAdditions() {
+  Environment& environment = run_->environment();
+  if (environment.robotCount() == shares_.robots) return;
+  shares_.addRobots(environment.robotCount());
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) needed_[rank] = shares_.needed(rank);
+  environment.phases().keepReadings(shares_.kept(own_));
+  environment.phases().digest(shares_.digested[own_]);
+  orders_of_ = {listOf(shares_.home[own_])};
+  setWork(shares_.work);
+}
+
 void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failure,
                           const std::function<void()>& record) {
   Environment& environment = run_->environment();
@@ -113,6 +113,7 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
   }
   exchangeOrders(failure);
   environment.phases().begin();
+  followAdditions();
   finished(moves);
   environment.phases().clip(shares_.work[own_]);
   finished(clips);
@@ -123,7 +124,7 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
   environment.phases().move();
   measured_.robots_moved += near_ ? known_.size() : shares_.robots;
   finished(moves);
-  sensor_failure_ = failureOf([&] { environment.phases().senseFully(shares_.work[own_]); });
+  own_failure_ = failureOf([&] { environment.phases().senseFully(shares_.work[own_]); });
   finished(sensors);
   if (sends_readings_) exchangeReadings(shares_.work, needed_);
   exchangeWinCandidates();
@@ -134,6 +135,8 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
     group_.allGather(errorBytes(observer_failure), all_);
     throwFirstError(group_, {all_.begin(), all_.end()}, observer_failure);
     observe();
+  } else if (observer_failure) {
+    own_failure_ = observer_failure;
   }
   ++measured_.steps;
   if (distribution_.balance_steps > 0 && measured_.steps % distribution_.balance_steps == 0) balance();
@@ -186,7 +189,7 @@ void DistributedRun::exchangeWith(Part part, const RobotsByRank& known, const Wr
 void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
   const RobotRange home = shares_.home[own_];
   orders_.begin(run_->environment().phases().orders(), home);
-  std::exception_ptr own = sensor_failure_ ? sensor_failure_ : failure;
+  std::exception_ptr own = own_failure_ ? own_failure_ : failure;
   if (!own) own = failureOf([&] { run_->decide(); });
   finished(controllers);
   const StepOrders orders = run_->environment().phases().orders();
@@ -256,13 +259,13 @@ void DistributedRun::exchangeStays(bool is_end_requested) {
 void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to) {
   const PhaseResults results = run_->environment().phases().results();
   // To all ranks, so that all throw in this step; and behind a byte, as in exchangeOrders().
-  const std::string error = errorBytes(sensor_failure_);
+  const std::string error = errorBytes(own_failure_);
   for (std::size_t rank = 0; rank < to.size(); ++rank) {
     to_[rank].clear();
     const RobotRange sent = intersection(from[own_], to[rank]);
-    if (rank == own_ || (sent.empty() && !sensor_failure_)) continue;
-    to_[rank].push_back(sensor_failure_ ? 1 : 0);
-    if (sensor_failure_) {
+    if (rank == own_ || (sent.empty() && !own_failure_)) continue;
+    to_[rank].push_back(own_failure_ ? 1 : 0);
+    if (own_failure_) {
       to_[rank] += error;
     } else {
       writeReadings(results, sent, to_[rank]);
@@ -271,7 +274,7 @@ void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const
   finished(rest);
   exchange();
   finished(waiting);
-  throwFirstSent(sensor_failure_);
+  throwFirstSent(own_failure_);
   for (std::size_t rank = 0; rank < from.size(); ++rank) {
     if (rank == own_ || all_[rank].empty()) continue;
     readReadings(std::string_view(all_[rank]).substr(1), intersection(from[rank], to[own_]), results);
@@ -295,6 +298,7 @@ void DistributedRun::observe() {
       if (own_ > 0) environment.applyAgain(intervention);
     }
   });
+  followAdditions();
   finished(waiting);
 }
 
@@ -333,7 +337,7 @@ void DistributedRun::balance() {
 
 void DistributedRun::finish(const std::exception_ptr& failure) {
   agree(group_, [&] {
-    if (sensor_failure_) std::rethrow_exception(sensor_failure_);
+    if (own_failure_) std::rethrow_exception(own_failure_);
     if (failure) std::rethrow_exception(failure);
   });
   if (near_) gatherMotion();

@@ -86,6 +86,8 @@ class DistributedRun {
  private:
   using RobotsByRank = std::vector<std::vector<std::uint32_t>>;
 
+  /// Gives the last rank the robots that an intervention has added. Every rank knows all robots then.
+  void followAdditions();
   /// Changes RankShares::work.
   void setWork(const std::vector<RobotRange>& work);
   /// Sends to each rank what `write` appends for the robots that it knows, of those of this rank; all_ is what the
@@ -149,7 +151,8 @@ class DistributedRun {
   std::vector<std::uint32_t> known_;    ///< by this rank; empty when every rank knows all
   std::string exchange_text_;
   OrdersWriter orders_;
-  std::exception_ptr sensor_failure_;  ///< of this rank in the last step, not known to the others
+  std::exception_ptr own_failure_;  ///< of this rank in the last step, not known to the others: of a sensor, or of the
+                                    ///< controller of an added robot
   bool is_end_requested_ = false;
   bool is_over_ = false;
   std::string out_;                      ///< bytes of this rank in an exchange

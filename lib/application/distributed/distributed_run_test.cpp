@@ -12,6 +12,7 @@
 #include "distributed/ranks/testing/thread_ranks.h"
 #include "distributed/run_identity.h"
 #include "environment/testing/small_world.h"
+#include "maze/controllers.h"
 
 namespace robosim {
 namespace {
@@ -175,17 +176,75 @@ TEST(DistributedRun, EqualsARunInOneProcessWhoseWorldFileChangesTheWorld) {
   EXPECT_EQ(outcomeOnRanks(settings, 3, 2, 7), alone);
 }
 
-TEST(DistributedRun, RefusesAWorldFileThatAddsRobots) {
-  Settings settings{"open_100", "wander", 10};
-  settings.timeline = {{1, AddRobot{"new", "scout", {}}, {}}};
+/// A robot of small_maze or open_100, near a corner.
+AddRobot addedNear(double x_m, double y_m, const std::string& name, const std::string& controller) {
+  AddRobot add{name, "scout", {}};
+  add.world_from_robot = {x_m, y_m, 1};
+  add.controller = controller;
+  return add;
+}
+
+TEST(DistributedRun, EqualsARunInOneProcessWhoseWorldFileAddsRobots) {
+  Settings settings{"open_100", "wander", 60};
+  settings.timeline = {{1, addedNear(0.3, 0.3, "First", ""), {}},
+                       {2, addedNear(0.3, 1.5, "Second", "gold_finder"), {}},
+                       {3, RemoveBody{"First"}, {}}};
+  LocalRun run(loaded(settings), optionsOf(settings, 1));
+  for (int i = 0; i < settings.steps; ++i) run.step();
+  ASSERT_EQ(run.environment().state().interventions_applied, 3u);
+  ASSERT_EQ(run.environment().robotCount(), 102u);
+  ASSERT_GT(run.environment().state().driven_m[101], 0.5) << "its controller drives it";
+  const std::string alone = outcomeOf(run, true);
+  for (const int ranks : {1, 2, 3, 4, 5, 6, 7, 8})
+    EXPECT_EQ(outcomeOnRanks(settings, ranks, 1 + ranks % 2, 7), alone) << ranks;
+  EXPECT_EQ(outcomeOnRanks(settings, 3, 1, 1, false), outcomeOf(run, false));
+}
+
+/// Tries to add a robot anywhere in every third step.
+class Adding final : public Observer {
+ public:
+  void observe(const Environment&) override {}
+  void supervise(Supervisor& supervisor) override {
+    const auto step = supervisor.environment().time().step;
+    if (step % 3 != 0) return;
+    Rng rng(1, RandomPurpose::test, 0, 0, step);
+    const Bounds2D& surface = supervisor.environment().world().bounds;
+    static_cast<void>(
+        supervisor.apply(addedNear(rng.uniform(surface.x_min, surface.x_max), rng.uniform(surface.y_min, surface.y_max),
+                                   std::to_string(step), "wander")));
+  }
+};
+
+TEST(DistributedRun, EqualsARunInOneProcessWhoseObserverAddsRobots) {
+  ObserverType type{"adding", "Adds robots.", {}, [](const ObserverSetup&, const ParameterValues&) {
+                      return std::unique_ptr<Observer>(std::make_unique<Adding>());
+                    }};
+  type.supervises = true;
+  observers().add(type);
+  for (const char* world : {"open_100", "small_maze"}) {
+    const Settings settings{world, "wander", 40, {"adding"}};
+    LocalRun run(loaded(settings), optionsOf(settings, 1));
+    const std::size_t at_start = run.environment().robotCount();
+    for (int i = 0; i < settings.steps; ++i) run.step();
+    ASSERT_GE(run.environment().robotCount(), at_start + 2) << world;
+    const std::string alone = outcomeOf(run, true);
+    for (const int ranks : {1, 2, 3, 8}) EXPECT_EQ(outcomeOnRanks(settings, ranks, 1 + ranks % 2, 7), alone) << ranks;
+  }
+}
+
+TEST(DistributedRun, EndsOnAllRanksWhenTheControllerOfAnAddedRobotCannotBeMade) {
+  controllers().add({"unmakeable", "Cannot be made.", {}, {}, [](const ControllerSetup&, const ParameterValues&) {
+                       throw std::runtime_error("made of nothing");
+                       return std::unique_ptr<Controller>();
+                     }});
+  Settings settings{"open_100", "wander", 20};
+  settings.timeline = {{1, addedNear(0.3, 0.3, "New", "unmakeable"), {}}};
   for (const int ranks : {1, 3}) {
     try {
       outcomeOnRanks(settings, ranks, 1, 7);
-      FAIL();
-    } catch (const ConfigError& error) {
-      EXPECT_NE(std::string(error.what()).find("adds the robot 'new' during the run, which is not possible on ranks"),
-                std::string::npos)
-          << error.what();
+      FAIL() << ranks;
+    } catch (const std::exception& error) {
+      EXPECT_NE(std::string(error.what()).find("made of nothing"), std::string::npos) << error.what();
     }
   }
 }

@@ -48,6 +48,13 @@ RankShares RankShares::of(std::size_t robots, int ranks, bool first_needs_all) {
   return shares;
 }
 
+void RankShares::addRobots(std::size_t robots_now) {
+  // The first ranges that end with the last robot may be those of ranks before empty ones.
+  const auto last_digested = std::find_if(digested.begin(), digested.end(),
+                                          [&](RobotRange range) { return !range.empty() && range.end == robots; });
+  last_digested->end = home.back().end = work.back().end = robots = robots_now;
+}
+
 RobotRange RankShares::needed(std::size_t rank) const {
   if (rank == 0 && first_needs_all) return {0, robots};
   return hull(home[rank], digested[rank]);

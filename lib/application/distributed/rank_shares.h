@@ -8,8 +8,8 @@ namespace robosim {
 
 /// Division of the robots of a world among ranks, as contiguous ranges in the world's order, by rank.
 struct RankShares {
-  std::vector<RobotRange> home;      ///< whose controllers the rank runs; constant during a run
-  std::vector<RobotRange> digested;  ///< that the rank adds to the run's digest: whole chunks; constant
+  std::vector<RobotRange> home;      ///< whose controllers the rank runs; constant, but for added robots
+  std::vector<RobotRange> digested;  ///< that the rank adds to the run's digest: whole chunks; as home
   std::vector<RobotRange> work;      ///< whose moves and sensors the rank computes; changed by balancedWork()
   std::size_t robots = 0;
   bool first_needs_all = false;  ///< whether rank 0 needs the readings of all robots, to record them
@@ -18,6 +18,8 @@ struct RankShares {
   /// ranks. Ranks without a robot have empty ranges.
   static RankShares of(std::size_t robots, int ranks, bool first_needs_all);
   std::size_t ranks() const { return home.size(); }
+  /// Adds robots at the end of the world's order: those of the last rank, and of the last part of the digest.
+  void addRobots(std::size_t robots_now);
   /// The robots whose readings a rank needs after each step.
   RobotRange needed(std::size_t rank) const;
   /// The robots whose readings a rank keeps: those, and those that it computes.

@@ -49,6 +49,27 @@ TEST(RankShares, OfManyRobotsNeedNoReadingsOfOtherRanks) {
   EXPECT_EQ(RankShares::of(100'000, 8, true).needed(0), (RobotRange{0, 100'000}));
 }
 
+TEST(RankShares, GiveAddedRobotsToTheLastRank) {
+  // One chunk of the digest, which is the first rank's; then a second.
+  RankShares few = RankShares::of(5, 2, false);
+  few.addRobots(300);
+  EXPECT_EQ(few.home, (std::vector<RobotRange>{{0, 2}, {2, 300}}));
+  EXPECT_EQ(few.work, few.home);
+  EXPECT_EQ(few.digested, (std::vector<RobotRange>{{0, 300}, {}}));
+  EXPECT_EQ(few.kept(0), (RobotRange{0, 300}));
+  // A chunk of each rank.
+  RankShares many = RankShares::of(512, 2, true);
+  many.addRobots(513);
+  EXPECT_EQ(many.home, (std::vector<RobotRange>{{0, 256}, {256, 513}}));
+  EXPECT_EQ(many.digested, many.home);
+  EXPECT_EQ(many.needed(0), (RobotRange{0, 513}));
+  // Fewer robots than ranks.
+  RankShares one = RankShares::of(1, 3, false);
+  one.addRobots(2);
+  EXPECT_EQ(one.home, (std::vector<RobotRange>{{}, {}, {0, 2}}));
+  EXPECT_EQ(one.digested, one.home);
+}
+
 TEST(BalancedWork, StaysWhenAllRanksAreBusyAboutEquallyLong) {
   const std::vector<RobotRange> work{{0, 50}, {50, 100}};
   EXPECT_EQ(balancedWork(work, {{1.0, 0.1}, {1.04, 0.1}}), work);

@@ -1,6 +1,7 @@
 #include "distributed/run_identity.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/digest.h"
 #include "base/error_list.h"
@@ -15,9 +16,11 @@ void addText(Digest& digest, const std::string& text) {
   digest.addBytes(text.data(), text.size());
 }
 
-std::uint64_t digestOfControllers(const Fleet& fleet, const std::string& instead) {
+/// Of the robots with which the run began: on rank 0, observers may have added others.
+std::uint64_t digestOfControllers(const Model& model, const std::string& instead) {
   Digest digest;
-  for (const FleetRobot& robot : fleet.robots) {
+  const std::span<const FleetRobot> robots = model.fleet.robots;
+  for (const FleetRobot& robot : robots.first(robots.size() - model.additions.size())) {
     addText(digest, controllerOf(robot.controller, instead));
     addText(digest, robot.info.neighbour);
     addText(digest, robot.info.model);
@@ -43,8 +46,8 @@ constexpr std::size_t kVersionAt = kDigests * sizeof(std::uint64_t);  ///< after
 
 std::string describeIdentity(const Model& model, const RunOptions& options, const DistributionOptions& distribution) {
   StateWriter identity;
-  identity.addNumber(digestOf(model));
-  identity.addNumber(digestOfControllers(model.fleet, options.controller));
+  identity.addNumber(digestOfStart(model));
+  identity.addNumber(digestOfControllers(model, options.controller));
   identity.addNumber(digestOfOptions(options, distribution));
   identity.bytes += ROBOSIM_VERSION;
   return std::move(identity.bytes);

@@ -233,7 +233,7 @@ std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
            "can "
            "be added; use another robot type, or give the world a robot with a camera";
   }
-  if (options_.is_added_elsewhere && options_.is_added_elsewhere(robot)) return {};
+  if (!options_.checks_added_elsewhere && options_.is_added_elsewhere && options_.is_added_elsewhere(robot)) return {};
   const std::string name = controllerOfAdded(robot);
   try {
     checkController(name);

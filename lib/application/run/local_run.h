@@ -35,6 +35,7 @@ struct RunOptions {
   std::string controller_of_added = {};
   /// Whether another process drives a robot that an intervention adds; null: none does.
   std::function<bool(const FleetRobot&)> is_added_elsewhere = {};
+  bool checks_added_elsewhere = false;  ///< whether controllers of those robots must be of this program, as on ranks
   /// Why a robot cannot be added to the run, and how to change that; empty: it can. Null: all can, as far as a LocalRun
   /// is concerned.
   RobotCheck check_added = {};

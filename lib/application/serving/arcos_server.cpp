@@ -18,6 +18,7 @@
 #include "net/host_port.h"
 #include "net/processor_budget.h"
 #include "serving/arcos_connection.h"
+#include "serving/arcos_factory.h"
 #include "serving/arcos_lasers.h"
 #include "serving/new_arcos_connections.h"
 
@@ -134,6 +135,7 @@ struct ArcosServer::Impl {
   std::vector<std::unique_ptr<ServedRobot>> robots;
   std::optional<ConnectionAcceptor> acceptor;  ///< of a port per robot, or one for all
   NewArcosConnections new_connections;
+  ArcosFactory factory;
   ProcessorBudget budget{kNewConnectionsShare, kNewConnectionsBurst};  ///< of new connections
   ArcosLasers lasers;
   std::uint64_t steps_per_cycle;
@@ -145,16 +147,14 @@ struct ArcosServer::Impl {
       : limited_log(the_options.log),
         options(the_options),
         environment(the_environment),
+        factory(the_environment, the_options.factory, the_options.isFactory() ? the_options.factory_most - 1 : 0),
         lasers(the_environment),
         steps_per_cycle(
             static_cast<std::uint64_t>(std::max(1.0, std::round(arcos::kCycle_s / the_environment.time().period_s)))) {
     // A kind for each source, so that a flood of one does not hide the others.
     options.log = [this](const std::string& line) { limited_log.write("ARCOS programs", line); };
-    const auto log_request = [this](const std::string& line) { limited_log.write("requests of ARCOS programs", line); };
-    for (const auto index : indices) {
-      robots.push_back(std::make_unique<ServedRobot>(environment, index, options, log_request));
-    }
-    const std::size_t ports = options.is_factory ? std::min<std::size_t>(1, robots.size()) : robots.size();
+    addRobots(indices);
+    const std::size_t ports = options.isFactory() ? std::min<std::size_t>(1, robots.size()) : robots.size();
     acceptor.emplace(
         listenersFor(options, ports, previous ? previous->acceptor->listeners() : std::vector<Listener>{}),
         ConnectionAcceptor::Options{.pending = "connections without ARCOS's handshake",
@@ -162,26 +162,42 @@ struct ArcosServer::Impl {
                                     .close = [this](ConnectionAcceptor::Number number) { drop(number); }});
   }
 
-  bool isFree(std::size_t port) const {
-    if (!options.is_factory) return !robots[port]->connection;
-    return std::any_of(robots.begin(), robots.end(), [](const auto& robot) { return !robot->connection; });
+  void addRobots(const std::vector<std::size_t>& indices) {
+    const auto log_request = [this](const std::string& line) { limited_log.write("requests of ARCOS programs", line); };
+    for (const auto index : indices) {
+      if (!robots.empty() && robots.back()->index >= index) continue;
+      robots.push_back(std::make_unique<ServedRobot>(environment, index, options, log_request));
+    }
   }
-  /// The robot for a program that has connected to a port; of a factory, one that enters for it. Null if there is none.
+
+  bool isFree(std::size_t port) const {
+    if (!options.isFactory()) return !robots[port]->connection;
+    return factory.mayAdd() ||
+           std::any_of(robots.begin(), robots.end(), [](const auto& robot) { return !robot->connection; });
+  }
+  /// The robot for a program that has connected to a port; of a factory, one that enters or is added for it. Null if
+  /// there is none.
   ServedRobot* robotFor(std::size_t port) {
-    if (!options.is_factory) return robots[port]->connection ? nullptr : robots[port].get();
+    if (!options.isFactory()) return robots[port]->connection ? nullptr : robots[port].get();
     // A supervisor may have removed a robot with a program, or placed one without.
     const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) {
       return !robot->connection && (!robot->isAbsent() || robot->enter());
     });
-    return found == robots.end() ? nullptr : found->get();
+    if (found != robots.end()) return found->get();
+    const auto added = factory.add();
+    if (!added) return nullptr;
+    addRobots({*added});
+    return robots.back().get();
   }
   void refuse(const AcceptedConnection& accepted) {
     limited_log.write("refused ARCOS programs",
                       "refused " + toHostAndPort(accepted.peer) + ": " +
-                          (options.is_factory ? "all " + std::to_string(robots.size()) +
-                                                    " robots have a program, or their starts are not free; give "
-                                                    "--arcos-factory a greater number"
-                                              : "robot " + robots[accepted.port]->name() + " has a program already"));
+                          (options.isFactory() ? "all " + std::to_string(robots.size()) +
+                                                     " robots have a program or cannot enter, and no other one can be "
+                                                     "added; at most " +
+                                                     std::to_string(options.factory_most) + " " + options.factory +
+                                                     " come (--arcos-factory), where there is room"
+                                               : "robot " + robots[accepted.port]->name() + " has a program already"));
   }
 
   /// A connection claims a robot by the handshake only, so that others cannot occupy robots.
@@ -219,7 +235,7 @@ struct ArcosServer::Impl {
                   robot->connection->endReason());
       robot->connection.reset();
       robot->board.endSession();
-      if (options.is_factory) robot->leave();
+      if (options.isFactory()) robot->leave();
     }
   }
 
@@ -294,10 +310,12 @@ ArcosServer::ArcosServer(const ArcosOptions& options, Environment& environment, 
 
 ArcosServer::~ArcosServer() = default;
 
+void ArcosServer::addRobots(const std::vector<std::size_t>& robots) { impl_->addRobots(robots); }
+
 std::vector<int> ArcosServer::ports() const {
   std::vector<int> ports;
   for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
-    ports.push_back(impl_->acceptor->listeners()[impl_->options.is_factory ? 0 : i]->port());
+    ports.push_back(impl_->acceptor->listeners()[impl_->options.isFactory() ? 0 : i]->port());
   }
   return ports;
 }
@@ -312,7 +330,7 @@ void ArcosServer::decide() { impl_->decide(); }
 void ArcosServer::stepped() { impl_->stepped(); }
 
 bool isForArcos(const FleetRobot& robot, const ArcosOptions& options, bool has_controller) {
-  return robot.model->arcos && (options.has_all || (!has_controller && robot.controller.empty()));
+  return (!robot.model || robot.model->arcos) && (options.has_all || (!has_controller && robot.controller.empty()));
 }
 
 }  // namespace robosim

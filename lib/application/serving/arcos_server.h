@@ -12,10 +12,12 @@ namespace robosim {
 struct ArcosOptions {
   std::string listen = "127.0.0.1:8101";  ///< "host:port" of the first robot; the others have the ports that follow.
                                           ///< With port 0 the system chooses each
-  bool is_factory = false;                ///< one port; the robots are absent, and each program gets one that comes
-                                          ///< to its start, and leaves with the program
+  std::string factory = {};               ///< robot type; if given: one port; the robots are absent, and each program
+                                          ///< gets one that comes to its start, or is added, and leaves with it
+  std::size_t factory_most = 0;           ///< robots of that type, with the one that the run has from its start
   bool has_all = false;                   ///< also serve robots that have a controller
   double speed = 1;                       ///< simulated seconds per second, for SIMSTAT
+  bool isFactory() const { return !factory.empty(); }
   std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
 };
 
@@ -38,6 +40,9 @@ class ArcosServer {
   ArcosServer(const ArcosServer&) = delete;
   ArcosServer& operator=(const ArcosServer&) = delete;
 
+  /// Serves robots that have been added to a run with a factory, if it does not yet.
+  void addRobots(const std::vector<std::size_t>& robots);
+
   /// TCP port of each robot, in the order of the constructor.
   std::vector<int> ports() const;
   std::size_t clients() const;
@@ -56,7 +61,8 @@ class ArcosServer {
 };
 
 /// Whether an ARCOS program may drive a robot: its type has arcos::Parameters, and it has no controller, unless
-/// ArcosOptions::has_all. @param has_controller whether every robot has one, whatever the world says
+/// ArcosOptions::has_all. A robot without a model stands for those of all types with arcos::Parameters.
+/// @param has_controller whether every robot has one, whatever the world says
 bool isForArcos(const FleetRobot& robot, const ArcosOptions& options, bool has_controller);
 
 }  // namespace robosim

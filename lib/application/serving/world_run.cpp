@@ -33,6 +33,11 @@ std::string whyNoneIsForArcos(const WorldRunOptions& options) {
   return "none of a type with <arcos> is without a controller; --arcos-all serves those with one, too";
 }
 
+/// Whether ARCOS programs drive a robot that is added to the run: other ones would need a port.
+bool isAddedForArcos(const FleetRobot& robot, const WorldRunOptions& options) {
+  return options.arcos && options.arcos->isFactory() && isDrivenByArcos(robot, options);
+}
+
 /// By robot: whether ARCOS programs drive it.
 std::vector<std::uint8_t> arcosFlags(const Fleet& fleet, const WorldRunOptions& options) {
   std::vector<std::uint8_t> flags;
@@ -88,7 +93,7 @@ class WorldRun::OneRun {
         run(std::move(world), onRequest(arguments.run), either(networked, is_arcos)),
         run_info(run.environment(), source, arguments.run.environment.seed, networked),
         outputs(arguments, run.environment(), makeNote(source, run, arguments.run, either(networked, is_arcos))) {
-    if (options.arcos && options.arcos->is_factory) {
+    if (options.arcos && options.arcos->isFactory()) {
       run.environment().remove(arcosRobots());  // they enter the world with their programs
     }
     requestPictures({});
@@ -102,8 +107,8 @@ class WorldRun::OneRun {
     std::vector<std::uint8_t> are_networked;
     const auto& robots = run.environment().fleet().robots;
     for (std::size_t i = networked.size(); i < robots.size(); ++i) {
-      is_arcos.push_back(0);
-      are_networked.push_back(isNetworked(robots[i], options) ? 1 : 0);
+      is_arcos.push_back(isAddedForArcos(robots[i], options) ? 1 : 0);
+      are_networked.push_back(!is_arcos[i] && isNetworked(robots[i], options) ? 1 : 0);
     }
     networked.insert(networked.end(), are_networked.begin(), are_networked.end());
     run_info.addRobots(are_networked);
@@ -200,8 +205,9 @@ void WorldRun::logArcosPorts() const {
                         " has no robots for ARCOS programs: " + whyNoneIsForArcos(options_));
   }
   const std::vector<int> ports = arcos_->ports();
-  if (options_.arcos->is_factory && !ports.empty()) {
-    options_.arcos->log("up to " + std::to_string(robots.size()) + " robots, one for each ARCOS program on " +
+  if (options_.arcos->isFactory() && !ports.empty()) {
+    const std::size_t most = robots.size() + options_.arcos->factory_most - 1;
+    options_.arcos->log("up to " + std::to_string(most) + " robots, one for each ARCOS program on " +
                         withPort(options_.arcos->listen, ports.front()));
     return;
   }
@@ -215,6 +221,7 @@ void WorldRun::logArcosPorts() const {
 void WorldRun::addRobots() {
   const std::size_t before = run_->networked.size();
   run_->addRobots(options_);
+  if (arcos_ && options_.arcos->isFactory()) arcos_->addRobots(run_->arcosRobots());
   if (foxglove_ && run_->networked.size() != before) {
     foxglove_->addRobots(run_->run, run_->run_info.run_id, whyNotDriven());
   }
@@ -333,10 +340,14 @@ std::shared_ptr<WorldRun::OneRun> WorldRun::load(WorldSource source, int number)
   of_this_run.record = numbered(of_this_run.record, number);
   of_this_run.picture = numbered(of_this_run.picture, number);
   RunOptions& run = of_this_run.run;
-  run.is_added_elsewhere = [options = options_](const FleetRobot& robot) { return isNetworked(robot, options); };
+  run.is_added_elsewhere = [options = options_](const FleetRobot& robot) {
+    return isAddedForArcos(robot, options) || isNetworked(robot, options);
+  };
   run.check_added = [options = options_, fault = whyNoAdditions(of_this_run)](const FleetRobot& robot) {
-    if (!fault.empty() || !isDrivenByArcos(robot, options)) return fault;
-    return std::string("robots for ARCOS programs cannot be added; name a controller");
+    if (!fault.empty() || !isDrivenByArcos(robot, options) || isAddedForArcos(robot, options)) return fault;
+    return std::string(
+        "robots for ARCOS programs can be added with --arcos-factory only, where they share a port; "
+        "name a controller");
   };
   // A robot that another process drives needs no sensors for a controller of this one.
   const auto is_elsewhere = [this](const FleetRobot& robot, std::size_t) {

@@ -26,7 +26,7 @@ void Environment::Impl::useModel(std::shared_ptr<const Model> other) {
   paths.assign(count, Path());
   antenna_z_m = ofRobots(fleet(), antennaOf);
   noteGrippers();
-  share = {everyRobot(), everyRobot()};
+  if (!is_shared) share = {everyRobot(), everyRobot()};
   if (images_of) images = images_of(*model);
 }
 

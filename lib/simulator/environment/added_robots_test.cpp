@@ -228,15 +228,5 @@ TEST(AddedRobots, LetARunGoOnInWhichAllHadHalted) {
   EXPECT_FALSE(environment->state().all_halted_step);
 }
 
-TEST(AddedRobots, AreRefusedInARunThatProcessesShare) {
-  const AddingWorld small;
-  EnvironmentOptions options;
-  options.share = RobotShare{{0, 2}, {0, 2}};
-  Environment environment(small.world, small.fleet, options);
-  EXPECT_EQ(applied(environment, newRobot("new", 1, 1)),
-            "a run that several processes or ranks share cannot have further robots; run it in one process, or give "
-            "the world the robot 'new' and take it out until it is needed");
-}
-
 }  // namespace
 }  // namespace robosim

@@ -151,10 +151,6 @@ struct Environment::Impl::ApplyChange {
 
   /// What is wrong with the names and the number of robots.
   std::string nameFault(const AddRobot& add) const {
-    if (of.is_shared) {
-      return "a run that several processes or ranks share cannot have further robots; run it in one process, or give " +
-             ("the world the robot " + inQuotes(add.name)) + " and take it out until it is needed";
-    }
     if (objectNamed(add.name) || robotNamed(add.name)) {
       return "there is a robot or an object named " + inQuotes(add.name) + " already; use another name";
     }

@@ -33,6 +33,7 @@ void StepPhases::conclude() {
   impl_->conclude();
 }
 void StepPhases::keepReadings(RobotRange range) { impl_->keepReadings(range); }
+void StepPhases::digest(RobotRange range) { impl_->share.digested = range; }
 
 void StepPhases::limitTo(std::span<const std::uint32_t> known, RobotRange counted) {
   impl_->known.limitTo(known);

@@ -69,6 +69,8 @@ class StepPhases {
   /// Changes RobotShare::kept: the readings of other robots have no measurements. New ones are blank, and the caller
   /// sets them. Environment::restore() and restart() require those of all robots.
   void keepReadings(RobotRange range);
+  /// Changes RobotShare::digested after an intervention has added robots: a range with the robots so far.
+  void digest(RobotRange range);
   ///@}
 
   /// @name The robots that a process knows, for one that shares a run with others

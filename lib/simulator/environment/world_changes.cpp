@@ -139,7 +139,6 @@ void addRandomRobots(const WorldSource& source, const RobotTypes& types, const W
   Rng rng(seed, RandomPurpose::start_pose, 1);
   for (int added = 0; added < changes.random_robots; ++added) {
     const auto place = places.takeRandom(rng);
-    if (!place && changes.may_add_fewer && added > 0) return;
     if (!place) {
       throw ConfigError("--random-robots " + std::to_string(changes.random_robots) + ": there is room for " +
                         std::to_string(added) + " robots '" + changes.random_model + "' only in " + source.file +

@@ -30,8 +30,7 @@ inline constexpr Communication kAddedRadio{
 /// Changes that a run makes to a world.
 struct WorldChanges {
   std::vector<AddedRobot> robots;
-  int random_robots = 0;       ///< number of robots to add at random positions, linked as neighbours in a ring
-  bool may_add_fewer = false;  ///< as many of random_robots as there is room for, at least one
+  int random_robots = 0;  ///< number of robots to add at random positions, linked as neighbours in a ring
   std::string random_model = "pioneer3dx";
   /// Replaces the robots by so many of the first one's kind, at random free places, named Robot1, Robot2, …, each with
   /// the next as its neighbour, the last with the first; at least 1.

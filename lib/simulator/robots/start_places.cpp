@@ -69,6 +69,11 @@ std::optional<TPoint2D> FreePlaces::takeRandom(Rng& rng) {
   return std::nullopt;
 }
 
+std::optional<TPoint2D> FreePlaces::draw(Rng& rng) const {
+  if (cells_.empty()) return std::nullopt;
+  return free_.place(cells_[rng.below(static_cast<std::uint32_t>(cells_.size()))]);
+}
+
 std::optional<TPoint2D> FreePlaces::takeNearest(const TPoint2D& to, double clearance_m,
                                                 const std::function<bool(const TPoint2D&)>& is_wanted) {
   const auto distance = [&](std::size_t cell) { return (free_.place(cell) - to).sqrNorm(); };

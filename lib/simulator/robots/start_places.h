@@ -20,6 +20,8 @@ class FreePlaces {
 
   /// Takes a random place. @return nullopt when there is none
   std::optional<mrpt::math::TPoint2D> takeRandom(Rng& rng);
+  /// A random place of the region, whether it is clear of robots or not. @return nullopt when the region is empty
+  std::optional<mrpt::math::TPoint2D> draw(Rng& rng) const;
   /// Takes the place nearest to a position. @param clearance_m to other robots
   /// @param is_wanted further condition on a place; null: none @return nullopt when there is none
   std::optional<mrpt::math::TPoint2D> takeNearest(

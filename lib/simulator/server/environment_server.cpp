@@ -275,6 +275,7 @@ struct EnvironmentServer::Impl {
       serving.wake_requested = false;
       serving.checkSessions();
       executeRequests(run);
+      addRobots(run);  // of programs that the run serves
       if (run_control.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
       admit(run);
