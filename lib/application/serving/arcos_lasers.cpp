@@ -68,7 +68,7 @@ void convert(const Echoes& echoes, const SensorInfo& info, std::vector<std::uint
 
 }  // namespace
 
-ArcosLasers::ArcosLasers(Environment& environment) : environment_(environment), readings_(environment.robotCount()) {}
+ArcosLasers::ArcosLasers(Environment& environment) : environment_(environment) {}
 
 ArcosLasers::Group& ArcosLasers::groupOf(const RobotModel& model, const arcos::LaserRequest& laser) {
   const auto [group, is_new] =
@@ -82,6 +82,7 @@ void ArcosLasers::measure(std::span<const Request> requests) {
     group.robots.clear();
     group.ranges.clear();
   }
+  readings_.resize(environment_.robotCount());  // robots may have been added
   for (const Request& request : requests) {
     const RobotModel& model = *environment_.fleet().robots[request.robot].model;
     const std::size_t slot = laserSlot(model);
