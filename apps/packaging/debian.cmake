@@ -7,7 +7,7 @@ if(NOT HELP2MAN)
 endif()
 
 get_cmake_property(CPACK_COMPONENTS_ALL COMPONENTS)
-list(FILTER CPACK_COMPONENTS_ALL INCLUDE REGEX "^(librobosim|librobosim-extra|robosim|robosim-data|robosim-dev|robosim-mpi|python3-robosim)$")
+list(FILTER CPACK_COMPONENTS_ALL INCLUDE REGEX "^(librobosim|librobosim-extra|robosim|robosim-data|robosim-dev|robosim-mpi|robosim-dds|python3-robosim)$")
 
 # 0.1.0-1~deb12 for Debian 12, so that an upgrade of Debian replaces the package by that of the next release.
 file(STRINGS /etc/os-release release REGEX "^(VERSION_ID|VERSION_CODENAME)=")
@@ -83,7 +83,7 @@ set(CPACK_DEBIAN_ROBOSIM_PACKAGE_NAME robosim)
 set(CPACK_DEBIAN_ROBOSIM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_ROBOSIM_PACKAGE_DEPENDS
     "${extra_package} (= ${full_version}), robosim-data (= ${full_version})")
-set(CPACK_DEBIAN_ROBOSIM_PACKAGE_SUGGESTS "librobosim-dev, mrpt-apps, python3-robosim, robosim-mpi")
+set(CPACK_DEBIAN_ROBOSIM_PACKAGE_SUGGESTS "librobosim-dev, mrpt-apps, python3-robosim, robosim-dds, robosim-mpi")
 
 set(CPACK_COMPONENT_ROBOSIM-MPI_DESCRIPTION "simulator of cooperating mobile robots - runs on several machines
 ${about}
@@ -94,9 +94,19 @@ set(CPACK_DEBIAN_ROBOSIM-MPI_PACKAGE_NAME robosim-mpi)
 set(CPACK_DEBIAN_ROBOSIM-MPI_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_ROBOSIM-MPI_PACKAGE_DEPENDS "${engine_package} (= ${full_version})")
 set(CPACK_DEBIAN_ROBOSIM-MPI_PACKAGE_RECOMMENDS "openmpi-bin, robosim")
+
+set(CPACK_COMPONENT_ROBOSIM-DDS_DESCRIPTION "simulator of cooperating mobile robots - connection to ROS 2
+${about}
+
+This package contains the library with which robosim publishes to ROS 2 and
+is driven by it over DDS. It needs no ROS.")
+set(CPACK_DEBIAN_ROBOSIM-DDS_PACKAGE_NAME robosim-dds)
+set(CPACK_DEBIAN_ROBOSIM-DDS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_ROBOSIM-DDS_PACKAGE_DEPENDS "${engine_package} (= ${full_version}), ${extra_package} (= ${full_version})")
+set(CPACK_DEBIAN_ROBOSIM-DDS_PACKAGE_RECOMMENDS "robosim")
 # CPack runs ldconfig in maintainer scripts only; Debian's tools expect a trigger.
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
-foreach(component ROBOSIM ROBOSIM-MPI LIBROBOSIM LIBROBOSIM-EXTRA)
+foreach(component ROBOSIM ROBOSIM-MPI ROBOSIM-DDS LIBROBOSIM LIBROBOSIM-EXTRA)
   set(CPACK_DEBIAN_${component}_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
 endforeach()
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)

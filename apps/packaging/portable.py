@@ -28,7 +28,8 @@ OF_THE_SYSTEM = re.compile(r"(ld-linux-x86-64|lib(c|m|dl|pthread|rt|resolv|util|
 # the archive it finds functions that return 0, as those of GDAL do for a file that they cannot read.
 REPLACED = re.compile(r"libgdal\.so\.")
 # Windows, and devices and MPI, which are loaded on demand; RoboSim reports what is missing.
-LEFT_OUT = ("libexec/robosim/robosim-view", "lib/librobosim-viewing.so*", "lib/librobosim-devices.so*", "lib/librobosim-mpi.so*")
+LEFT_OUT = ("libexec/robosim/robosim-view", "lib/librobosim-viewing.so*", "lib/librobosim-devices.so*", "lib/librobosim-mpi.so*",
+            "lib/librobosim-dds.so*")
 FONTS_CONF = """<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "urn:fontconfig:fonts.dtd">
 <fontconfig>

@@ -4,22 +4,23 @@
 
 namespace robosim {
 
+int Topic::depth() const {
+  switch (delivery) {
+    case TopicDelivery::steady:
+      return 10;
+    case TopicDelivery::sensor:
+      return 5;
+    case TopicDelivery::transforms:
+      return 100;
+    case TopicDelivery::latched:
+      return 1;
+  }
+  return 10;
+}
+
 std::string Topic::offeredQos() const {
-  const auto depth = [this] {
-    switch (delivery) {
-      case TopicDelivery::steady:
-        return 10;
-      case TopicDelivery::sensor:
-        return 5;
-      case TopicDelivery::transforms:
-        return 100;
-      case TopicDelivery::latched:
-        return 1;
-    }
-    return 10;
-  }();
   constexpr const char* kInfinite = "\n    sec: 9223372036\n    nsec: 854775807\n";
-  return "- history: 1\n  depth: " + std::to_string(depth) +
+  return "- history: 1\n  depth: " + std::to_string(depth()) +
          "\n  reliability: 1\n  durability: " + (delivery == TopicDelivery::latched ? "1" : "2") +
          "\n  deadline:" + kInfinite + "  lifespan:" + kInfinite +
          "  liveliness: 1\n  liveliness_lease_duration:" + kInfinite + "  avoid_ros_namespace_conventions: false\n";

@@ -23,6 +23,8 @@ struct Topic {
   const ros::MessageType* type = nullptr;
   TopicDelivery delivery = TopicDelivery::steady;
 
+  /// Number of messages that a writer or reader keeps.
+  int depth() const;
   /// The delivery as rosbag2 stores it: a list of YAML with the numbers of ROS's enumerations.
   std::string offeredQos() const;
   bool operator==(const Topic&) const = default;
