@@ -22,23 +22,24 @@ bool isAddress(const std::string& text) {
   return text.find(':') != std::string::npos || text.find_first_not_of("0123456789.") == std::string::npos;
 }
 
+std::string interfaceElement(const std::string& interface) {
+  if (interface.empty()) return R"(<NetworkInterface autodetermine="true"/>)";
+  return std::string("<NetworkInterface ") + (isAddress(interface) ? "address" : "name") + "=\"" +
+         checked(interface, "network interface") + "\"/>";
+}
+
 }  // namespace
 
 std::string cycloneConfig(const Options& options) {
-  const bool is_local = options.interface.empty();
-  const std::string interface = is_local ? "127.0.0.1" : checked(options.interface, "network interface");
-  std::string peers = is_local ? R"(<Peer address="127.0.0.1"/>)" : "";
+  std::string peers = R"(<Peer address="127.0.0.1"/>)";
   for (const auto& peer : options.peers) peers += R"(<Peer address=")" + checked(peer, "address of a peer") + R"("/>)";
-  return std::string("<CycloneDDS><Domain><General><Interfaces><NetworkInterface ") +
-         (isAddress(interface) ? "address" : "name") + "=\"" + interface + "\"" +
-         (is_local ? R"( multicast="false")" : "") + "/></Interfaces>" +
-         (is_local ? "<AllowMulticast>false</AllowMulticast>" : "") +
+  return "<CycloneDDS><Domain><General><Interfaces>" + interfaceElement(options.interface) + "</Interfaces>" +
+         (options.isLocal() ? "<MulticastTimeToLive>0</MulticastTimeToLive>" : "") +
          // Ports by number: participants without multicast are found there.
          "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
          std::to_string(kMaxParticipants - 1) + "</MaxAutoParticipantIndex>" +
          // Peers that begin later and do not know this participant's port wait for its next announcement.
-         "<SPDPInterval>2s</SPDPInterval>" + (peers.empty() ? "" : "<Peers>" + peers + "</Peers>") +
-         "</Discovery></Domain></CycloneDDS>";
+         "<SPDPInterval>2s</SPDPInterval><Peers>" + peers + "</Peers></Discovery></Domain></CycloneDDS>";
 }
 
 }  // namespace robosim::dds

@@ -5,9 +5,9 @@
 
 namespace robosim::dds {
 
-/// Configuration of Cyclone DDS for a domain, as XML. Without an interface, only programs on this machine are found and
-/// served: by unicast to the ports of up to kMaxParticipants participants on 127.0.0.1, because a loopback interface
-/// usually has no multicast. With one, others are found by multicast, and Options::peers by unicast.
+/// Configuration of Cyclone DDS for a domain, as XML. Participants of this machine are found by unicast to the ports of
+/// the first kMaxParticipants on 127.0.0.1, and by multicast, which leaves this machine only if an interface is named;
+/// Options::peers are found by unicast.
 /// Source: Cyclone DDS 0.10, docs/manual/options.md. @throws ConfigError for text that is no interface or address
 std::string cycloneConfig(const Options& options);
 

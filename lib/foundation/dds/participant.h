@@ -24,6 +24,9 @@ struct Options {
   /// Addresses of machines that are to be found without multicast.
   std::vector<std::string> peers{};
   std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line; thread-safe
+
+  /// Whether nothing is sent to other machines, nor received from them.
+  bool isLocal() const { return interface.empty() && peers.empty(); }
 };
 
 /// Sends the messages of a topic, until it is destroyed.

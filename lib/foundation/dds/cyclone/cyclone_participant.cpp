@@ -15,6 +15,7 @@
 #include <dds/dds.h>
 
 #include "base/log_limiter.h"
+#include "dds/cyclone/local_sockets.h"
 #include "dds/cyclone/opaque_type.h"
 #include "dds/cyclone_config.h"
 #include "dds/names.h"
@@ -121,6 +122,7 @@ std::shared_ptr<Entity> domainOf(const Options& options) {
     domain = std::make_shared<Entity>(
         checked(dds_create_domain(static_cast<dds_domainid_t>(options.domain), config.c_str()),
                 "ROS 2, domain " + std::to_string(options.domain) + ": the network cannot be used"));
+    if (options.isLocal()) ignoreOtherMachines(options.domain);
     known = domain;
   }
   return domain;

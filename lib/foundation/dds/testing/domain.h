@@ -6,8 +6,9 @@
 
 namespace robosim::dds {
 
-/// A domain for the tests of this process, so that tests in parallel do not meet.
-inline int testDomain() { return static_cast<int>(getpid() % 200) + 1; }
+/// A domain for the tests of this process, so that tests in parallel do not meet. Ports of domains above 100 are also
+/// used by the system.
+inline int testDomain() { return static_cast<int>(getpid() % 100) + 1; }
 
 /// Waits for what other threads do, for up to 20 s. @return whether it is so
 template <typename Condition>
