@@ -17,6 +17,7 @@ constexpr const char* kRunGroup = "Run";
 constexpr const char* kRecordingGroup = "Recording and results";
 constexpr const char* kClientsGroup = "Robots and clients in other processes";
 constexpr const char* kArcosGroup = "Programs of ARIA";
+constexpr const char* kRos2Group = "ROS 2";
 constexpr const char* kSecurityGroup = "Connection and security";
 constexpr const char* kFigureGroup = "Pictures, videos and figures";
 constexpr const char* kGridGroup = "Grids and OctoMaps";

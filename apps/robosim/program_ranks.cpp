@@ -49,7 +49,7 @@ void checkSubcommand(int argc, char** argv) {
   const auto alone = [&](std::string_view option) {
     return hasOption(option, argc, argv) ? " " + std::string(option) : "";
   };
-  const std::string shown = alone(kViewOption) + alone(kFoxgloveOption);
+  const std::string shown = alone(kViewOption) + alone(kFoxgloveOption) + alone(kRos2Option);
   const bool has_ranks =
       std::find(kSubcommandsOnRanks.begin(), kSubcommandsOnRanks.end(), subcommand->name) != kSubcommandsOnRanks.end();
   if (has_ranks && shown.empty()) return;

@@ -147,7 +147,7 @@ LoadedWorld loadedWorld(const LocalRunArguments& arguments, std::optional<WorldS
 
 constexpr const char* kInterrupted = "interrupted; all outputs cover the steps before";
 
-/// @param window of --view or --foxglove; null: none
+/// @param window of --view, --foxglove or --ros2; null: none
 void runWorld(const LocalRunArguments& arguments, const RunWindow& window, double window_speed) {
   std::optional<Interrupt> interrupt(std::in_place);
   checkArguments(arguments);
@@ -304,21 +304,25 @@ void addRunCommand(CLI::App& program, const RunWindow& window, const RunServer& 
               "show the run in a window, in real time unless --speed is given; closing the window ends the run, and "
               "the window stays open after the run has ended; keys as for 'robosim view'")
           ->group(kRunGroup);
-  auto foxglove = std::make_shared<std::string>();
+  auto live = std::make_shared<LiveArguments>();
   command
-      ->add_option(std::string(kFoxgloveOption), *foxglove,
+      ->add_option(std::string(kFoxgloveOption), live->foxglove,
                    "serve the topics of ROS 2 to Foxglove on this machine, in real time unless --speed is given; as "
                    "'robosim serve --foxglove' (doc/ros2.md)")
       ->type_name("PORT")
       ->excludes(view)
       ->group(kRunGroup);
+  addRos2Options(*command, live->ros2, kRunGroup, false);
+  command->get_option(std::string(kRos2Option))->excludes(view);
   command->footer(controllersHelp);
-  command->callback([arguments, window, server, command, has_view, foxglove] {
+  command->callback([arguments, window, server, command, has_view, live] {
     const double speed = command->count("--speed") > 0 ? speedNumber(arguments->speed) : 1;
-    if (!foxglove->empty()) {
-      if (!server) throw ConfigError("--foxglove: is a feature of the command 'robosim run', which starts robosim-net");
+    if (!live->isNone()) {
+      if (!server) {
+        throw ConfigError("--foxglove and --ros2 are features of the command 'robosim run', which starts robosim-net");
+      }
       const RunWindow serve = [&](auto& run, const auto& of_run, double run_speed, const auto& observe) {
-        return server(run, of_run, *foxglove, run_speed, observe);
+        return server(run, of_run, *live, run_speed, observe);
       };
       return runWorld(*arguments, serve, speed);
     }

@@ -15,6 +15,7 @@
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/connection.h"
+#include "robosim/live_options.h"
 #include "robosim/run_arguments.h"
 #include "robosim/serve_arguments.h"
 #include "robosim/subcommands.h"
@@ -192,8 +193,10 @@ void serveWorld(const ServeArguments& arguments) {
   checkRunArguments(of_run);
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   const ServerOptions options = serverOptions(arguments);
-  WorldRun run({of_run, arguments.wait_for_robots, options.pace == Pace::realtime, arcosOptions(arguments),
-                foxgloveOptions(arguments, options)});
+  const LiveOptions live{foxgloveOptions(arguments, options),
+                         ros2Options(arguments.ros2, !options.access.isOpen(), options.log), options.access,
+                         options.log};
+  WorldRun run({of_run, arguments.wait_for_robots, options.pace == Pace::realtime, arcosOptions(arguments), live});
   EnvironmentServer server(options, run.runInfo());
   logPorts(options, server.ports());
   Served how = Served::interrupted;
@@ -296,6 +299,7 @@ void addServe(CLI::App& program) {
                 ->type_name("ORIGIN"),
             foxglove);
   setGroup(*command, kClientsGroup, {"--foxglove", "--foxglove-origin"});
+  addRos2Options(*command, a->ros2, kRos2Group, true);
   addListenerOptions(*command, a->listener);
   command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });
   command->callback([a, command] {

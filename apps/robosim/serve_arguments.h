@@ -5,6 +5,7 @@
 #include "net/listen.h"
 #include "net/open_port.h"
 #include "robosim/connection.h"
+#include "robosim/ros2_arguments.h"
 #include "run/outputs/run_outputs.h"
 
 namespace CLI {
@@ -32,6 +33,7 @@ struct ServeArguments {
   std::string arcos_factory;  ///< "MODEL" or "MODEL:NUMBER"; empty: a port for each robot
   std::string foxglove;       ///< address for Foxglove; empty: none
   std::vector<std::string> foxglove_origins;
+  Ros2Arguments ros2;
 };
 
 /// Adds --arcos and the options that belong to it.

@@ -17,7 +17,8 @@ const Subcommand* subcommandNamed(std::string_view name) {
 const char* partFor(const Subcommand& subcommand, int argc, char** argv) {
   if (subcommand.name != std::string_view("run")) return subcommand.part;
   if (hasOption(kViewOption, argc, argv)) return subcommandNamed("view")->part;
-  return hasOption(kFoxgloveOption, argc, argv) ? subcommandNamed("serve")->part : subcommand.part;
+  const bool is_served = hasOption(kFoxgloveOption, argc, argv) || hasOption(kRos2Option, argc, argv);
+  return is_served ? subcommandNamed("serve")->part : subcommand.part;
 }
 
 bool hasOption(std::string_view option, int argc, char** argv) {

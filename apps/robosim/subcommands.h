@@ -56,8 +56,9 @@ inline constexpr std::array kSubcommands{
 
 /// `robosim run` with this option is in the executable of `robosim view`.
 constexpr std::string_view kViewOption = "--view";
-/// With this one it is in the executable of `robosim serve`.
+/// With one of these it is in the executable of `robosim serve`.
 constexpr std::string_view kFoxgloveOption = "--foxglove";
+constexpr std::string_view kRos2Option = "--ros2";
 
 /// The entry of kSubcommands with this name; null when there is none.
 const Subcommand* subcommandNamed(std::string_view name);
@@ -81,7 +82,7 @@ CLI::App* addSubcommand(CLI::App& program, std::string_view name);
 ///@{
 void addRun(CLI::App& program);
 void addRunWithWindow(CLI::App& program);  ///< the same, for `robosim run --view`
-void addRunWithServer(CLI::App& program);  ///< the same, for `robosim run --foxglove`
+void addRunWithServer(CLI::App& program);  ///< the same, for `robosim run` with --foxglove or --ros2
 void addServe(CLI::App& program);
 void addArcos(CLI::App& program);
 void addRobot(CLI::App& program);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "base/error_list.h"
 #include "net/host_port.h"
@@ -56,36 +57,58 @@ std::string foxgloveLine(const foxglove::Server::Options& options, int port) {
   return "Foxglove: " + std::string(options.tls ? "wss" : "ws") + "://" + withPort(options.listen, port);
 }
 
-FoxgloveServing::FoxgloveServing(const FoxgloveOptions& options)
-    : options_(options), drivers_(options.server.access, options.server.log), server_([&] {
+/// Passes the messages of topics to the hub, whose channels they are.
+class FoxgloveServing::Outlet final : public TopicOutlet {
+ public:
+  explicit Outlet(foxglove::Hub& hub) : hub_(hub) {}
+
+  bool wants(std::size_t topic, Audience audience) const override { return hub_.wants(topic, of(audience)); }
+  bool isSubscribed(std::size_t topic) const override { return hub_.isSubscribed(topic); }
+  bool hasFresh() const override { return hub_.hasFresh(); }
+  void beginRound(std::uint64_t time_ns) override {
+    hub_.beginRound();
+    hub_.sendTime(time_ns);
+  }
+  void send(std::size_t topic, Audience audience, std::uint64_t time_ns, std::vector<std::uint8_t> message,
+            bool latest_only) override {
+    hub_.send(topic, of(audience), time_ns, std::make_shared<const std::vector<std::uint8_t>>(std::move(message)),
+              latest_only);
+  }
+  void endRound() override { hub_.endRound(); }
+
+ private:
+  static foxglove::Hub::Audience of(Audience audience) {
+    return audience == Audience::all ? foxglove::Hub::Audience::all : foxglove::Hub::Audience::fresh;
+  }
+  foxglove::Hub& hub_;
+};
+
+FoxgloveServing::FoxgloveServing(const FoxgloveOptions& options, RobotDrivers& drivers)
+    : options_(options),
+      drivers_(drivers),
+      commands_(drivers),
+      server_([&] {
         foxglove::Server::Options server = options.server;
-        server.publications = &drivers_;
+        server.publications = &commands_;
         return server;
-      }()) {}
+      }()),
+      outlet_(std::make_unique<Outlet>(server_.hub())) {}
 
 FoxgloveServing::~FoxgloveServing() = default;
 
-void FoxgloveServing::begin(LocalRun& run, const std::string& run_id, std::uint64_t seed,
-                            const std::vector<std::string>& why_not_driven) {
-  drivers_.begin(run, why_not_driven);
-  world_ = run.environment().world().name;
+void FoxgloveServing::begin(const Environment& environment, const std::string& run_id, std::uint64_t seed) {
+  world_ = environment.world().name;
   seed_ = seed;
-  offer(run.environment(), run_id);
-}
-
-void FoxgloveServing::addRobots(LocalRun& run, const std::string& run_id,
-                                const std::vector<std::string>& why_not_driven) {
-  drivers_.addRobots(run, why_not_driven);
-  offer(run.environment(), run_id);
-}
-
-void FoxgloveServing::offer(const Environment& environment, const std::string& run_id) {
-  feed_.emplace(server_.hub(), environment);
+  feed_.emplace(*outlet_, environment);
+  std::vector<foxglove::Channel> channels;
+  for (const auto& topic : feed_->topics()) {
+    channels.push_back({topic.name, "cdr", topic.type->name, topic.type->definition(), "ros2msg"});
+  }
   server_.hub().offer({{"RoboSim: " + world_,
                         {"time", "clientPublish", "parameters", "parametersSubscribe", "services"},
                         {"cdr", "json"},
                         run_id},
-                       feed_->channels(),
+                       std::move(channels),
                        services()});
 }
 
@@ -135,7 +158,7 @@ std::string FoxgloveServing::setParameter(const foxglove::Client& client, const 
   const auto& [name, value, type] = parameter;
   if (drivers_.hasParameter(name)) {
     if (!value.is_boolean()) return "must be true or false";
-    const std::string why = drivers_.setAutonomous(client, name, value.get<bool>());
+    const std::string why = drivers_.setAutonomous(driverOf(client), name, value.get<bool>());
     if (why.empty()) hub.audit(client, name + (value.get<bool>() ? " on" : " off"));
     return why;
   }

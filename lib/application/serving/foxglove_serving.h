@@ -10,8 +10,8 @@
 #include "foxglove/server.h"
 #include "run/local_run.h"
 #include "server/run_control.h"
-#include "serving/foxglove_drivers.h"
-#include "serving/foxglove_feed.h"
+#include "serving/foxglove_commands.h"
+#include "serving/topic_feed.h"
 
 namespace robosim {
 
@@ -32,33 +32,28 @@ std::string foxgloveAddress(const std::string& address);
 /// Line of the log that names the address, with the port that was chosen.
 std::string foxgloveLine(const foxglove::Server::Options& options, int port);
 
-/// Serves the runs of a program to Foxglove and other clients of its protocol: topics (FoxgloveFeed), driving
-/// (FoxgloveDrivers), parameters and services. All functions are called by the thread that steps the environment; none
+/// Serves the runs of a program to Foxglove and other clients of its protocol: topics (TopicFeed), driving
+/// (RobotDrivers), parameters and services. All functions are called by the thread that steps the environment; none
 /// of them waits.
 class FoxgloveServing {
  public:
-  /// Opens the port. @throws std::runtime_error as foxglove::Server
-  explicit FoxgloveServing(const FoxgloveOptions& options);
+  /// Opens the port. @param drivers of the runs; must outlive this @throws std::runtime_error as foxglove::Server
+  FoxgloveServing(const FoxgloveOptions& options, RobotDrivers& drivers);
   ~FoxgloveServing();
 
   int port() const { return server_.port(); }
-  /// Serves a run instead of the one before, which must still exist. @param run must outlive its time here
-  /// @param run_id another one for each run
-  /// @param why_not_driven by robot: why it cannot be driven; empty if this process has its controller
-  void begin(LocalRun& run, const std::string& run_id, std::uint64_t seed,
-             const std::vector<std::string>& why_not_driven);
-  /// Offers the robots that have been added to the run, too. Clients receive the list of topics again. Parameters as of
-  /// begin()
-  void addRobots(LocalRun& run, const std::string& run_id, const std::vector<std::string>& why_not_driven);
+  /// Serves a run instead of the one before, or the robots that have been added to it, too: clients receive the list of
+  /// topics again. @param run must outlive its time here @param run_id another one for each run
+  void begin(const Environment& environment, const std::string& run_id, std::uint64_t seed);
   /// Handles requests, and sends the state to new clients. Between steps, at least every ServingState::kPollInterval.
   void poll(RunControl& control, const FoxgloveRecording& recording);
   /// Sends the messages of a step.
   void stepped() { feed_->stepped(); }
-  /// As FoxgloveFeed
+  /// As TopicFeed
   std::vector<std::uint8_t> pictured() const { return feed_->pictured(); }
 
  private:
-  void offer(const Environment& environment, const std::string& run_id);
+  class Outlet;
   std::vector<foxglove::Parameter> parameters(const RunControl& control, const FoxgloveRecording& recording) const;
   void change(const foxglove::ParameterChange& change, RunControl& control, const FoxgloveRecording& recording);
   std::string setParameter(const foxglove::Client& client, const foxglove::Parameter& parameter, RunControl& control,
@@ -66,9 +61,11 @@ class FoxgloveServing {
   void call(const foxglove::ServiceRequest& request, RunControl& control);
 
   FoxgloveOptions options_;
-  FoxgloveDrivers drivers_;
+  RobotDrivers& drivers_;
+  FoxgloveCommands commands_;
   foxglove::Server server_;
-  std::optional<FoxgloveFeed> feed_;
+  std::unique_ptr<Outlet> outlet_;
+  std::optional<TopicFeed> feed_;
   std::string world_;
   std::uint64_t seed_ = 0;
   std::chrono::steady_clock::time_point parameters_due_;  ///< when clients are informed of changes

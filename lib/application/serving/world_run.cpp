@@ -177,11 +177,9 @@ WorldRun::WorldRun(WorldRunOptions options)
     : options_(std::move(options)), run_(load(readRunSource(options_.of_run), 1)) {
   arcos_ = makeArcosServer(*run_);
   logArcosPorts();
-  if (!options_.foxglove) return;
-  foxglove_ = std::make_unique<FoxgloveServing>(*options_.foxglove);
-  foxglove_->begin(run_->run, run_->run_info.run_id, run_->run_info.seed, whyNotDriven());
-  const auto& server = options_.foxglove->server;
-  server.log(foxgloveLine(server, foxglove_->port()));
+  if (options_.live.isNone()) return;
+  live_ = std::make_unique<LiveServing>(options_.live);
+  beginLive();
 }
 
 WorldRun::~WorldRun() = default;
@@ -222,9 +220,11 @@ void WorldRun::addRobots() {
   const std::size_t before = run_->networked.size();
   run_->addRobots(options_);
   if (arcos_ && options_.arcos->isFactory()) arcos_->addRobots(run_->arcosRobots());
-  if (foxglove_ && run_->networked.size() != before) {
-    foxglove_->addRobots(run_->run, run_->run_info.run_id, whyNotDriven());
-  }
+  if (live_ && run_->networked.size() != before) live_->addRobots(run_->run, whyNotDriven());
+}
+
+void WorldRun::beginLive() {
+  if (live_) live_->begin(run_->run, run_->run_info.run_id, run_->run_info.seed, whyNotDriven());
 }
 
 std::vector<std::string> WorldRun::whyNotDriven() const {
@@ -240,19 +240,24 @@ std::vector<std::string> WorldRun::whyNotDriven() const {
 
 void WorldRun::poll(RunControl& control) {
   if (arcos_) arcos_->poll();
-  if (!foxglove_) return;
+  if (!live_) return;
   requestPictures(pictured_);  // of clients that have subscribed since the last call
   const RecordingStatus status = recording();
-  foxglove_->poll(control, {status.state != RecordingStatus::State::none, status.state == RecordingStatus::State::on,
-                            [this](bool on) { setRecording(on); }});
+  live_->poll(control,
+              {status.state != RecordingStatus::State::none, status.state == RecordingStatus::State::on,
+               [this](bool on) { setRecording(on); }},
+              [this](const Intervention& change) {
+                if (isOver()) return std::string("the run is over, and its result stands; load the next one");
+                return environment().apply(change);
+              });
 }
 
 void WorldRun::requestPictures(const std::vector<std::uint8_t>& robots) {
   pictured_ = robots;
   std::vector<std::uint8_t> all = robots;
-  if (foxglove_ && run_->has_cameras) {
+  if (live_ && run_->has_cameras) {
     all.resize(environment().robotCount());
-    all = either(std::move(all), foxglove_->pictured());
+    all = either(std::move(all), live_->pictured());
   }
   run_->requestPictures(std::move(all));
 }
@@ -267,7 +272,7 @@ void WorldRun::stepped(std::size_t late) {
   run_->run.observe([&] { run_->outputs.observe(run_->run.environment()); });
   run_->reportRecording();
   if (arcos_) arcos_->stepped();
-  if (foxglove_) foxglove_->stepped();
+  if (live_) live_->stepped();
 }
 
 bool WorldRun::isOver() const { return run_->run.isOver() || options_.of_run.timeIsUp(run_->run.environment().time()); }
@@ -320,7 +325,7 @@ void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
   arcos_ = std::move(prepared.arcos);  // the previous one uses the run that is replaced
   const auto previous = std::exchange(run_, std::move(prepared.run));
   pictured_.clear();
-  if (foxglove_) foxglove_->begin(run_->run, run_->run_info.run_id, run_->run_info.seed, whyNotDriven());
+  beginLive();
   run_->start = std::chrono::steady_clock::now();
   ++number_;
   logArcosPorts();

@@ -8,7 +8,7 @@
 #include "run/run_summary.h"
 #include "server/served_run.h"
 #include "serving/arcos_server.h"
-#include "serving/foxglove_serving.h"
+#include "serving/live_serving.h"
 
 namespace robosim {
 
@@ -17,7 +17,7 @@ struct WorldRunOptions {
   bool wait_for_robots = false;       ///< for a process for every robot, including those with a controller
   bool is_realtime = false;           ///< late commands are counted, rather than awaited
   std::optional<ArcosOptions> arcos;  ///< serve robots of isForArcos() to ARCOS programs
-  std::optional<FoxgloveOptions> foxglove;
+  LiveOptions live;
 };
 
 /// The runs of one served program: loading another world from a control panel starts the next run. Each has its own
@@ -65,13 +65,15 @@ class WorldRun final : public ServedRun {
   std::shared_ptr<OneRun> load(WorldSource source, int number) const;
   std::unique_ptr<ArcosServer> makeArcosServer(OneRun& run) const;
   void logArcosPorts() const;
-  /// By robot, why Foxglove cannot drive it; empty if it can.
+  /// By robot, why clients of LiveServing cannot drive it; empty if they can.
   std::vector<std::string> whyNotDriven() const;
+  /// Begins to serve the current run by LiveServing, if it is used.
+  void beginLive();
 
   WorldRunOptions options_;
-  std::shared_ptr<OneRun> run_;                ///< shared with viewers
-  std::unique_ptr<ArcosServer> arcos_;         ///< of the current run; null without ARCOS
-  std::unique_ptr<FoxgloveServing> foxglove_;  ///< null without Foxglove; destroyed before the run
+  std::shared_ptr<OneRun> run_;         ///< shared with viewers
+  std::unique_ptr<ArcosServer> arcos_;  ///< of the current run; null without ARCOS
+  std::unique_ptr<LiveServing> live_;   ///< null without Foxglove and ROS 2; destroyed before the run
   std::vector<std::uint8_t> pictured_;  ///< by robot: whether clients of the environment's server receive its pictures
   int number_ = 1;
   bool had_all_robots_ = true;

@@ -228,6 +228,7 @@ struct EnvironmentServer::Impl {
     const double speed = run_control.speed;
     panels.execute(operations);
     run.poll(run_control);
+    addRobots(run);  // of clients that the run itself serves
     if (run_control.speed != speed) due = serving.now();
   }
 

@@ -1,4 +1,4 @@
-// `robosim run --foxglove`: a run of this process, served to Foxglove on this machine.
+// `robosim run` with --foxglove or --ros2: a run of this process, served on this machine.
 #include <algorithm>
 #include <chrono>
 #include <random>
@@ -9,36 +9,46 @@
 #include "base/log.h"
 #include "base/seconds.h"
 #include "net/host_port.h"
+#include "robosim/live_options.h"
 #include "robosim/run_command.h"
 #include "robosim/subcommands.h"
-#include "serving/foxglove_serving.h"
+#include "serving/live_serving.h"
 
 namespace robosim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-FoxgloveOptions localOptions(const std::string& address) {
-  FoxgloveOptions options;
-  options.server.listen = foxgloveAddress(address);
-  if (!isLoopback(options.server.listen)) {
-    throw ConfigError("--foxglove " + address + ": other machines could drive the robots; use 127.0.0.1, or 'robosim " +
-                      "serve --foxglove', which has TLS and tokens");
+LiveOptions localOptions(const LiveArguments& arguments) {
+  LiveOptions options;
+  options.log = [](const std::string& line) { logInfo("run", line); };
+  options.ros2 = ros2Options(arguments.ros2, false, options.log);
+  if (arguments.foxglove.empty()) return options;
+  options.foxglove.emplace();
+  options.foxglove->server.listen = foxgloveAddress(arguments.foxglove);
+  options.foxglove->server.log = options.log;
+  if (!isLoopback(options.foxglove->server.listen)) {
+    throw ConfigError("--foxglove " + arguments.foxglove + ": other machines could drive the robots; use 127.0.0.1, " +
+                      "or 'robosim serve --foxglove', which has TLS and tokens");
   }
-  options.server.log = [](const std::string& line) { logInfo("run", line); };
   return options;
 }
 
-EndedBy serveRun(LocalRun& run, const RunArguments& arguments, const std::string& address, double speed,
+EndedBy serveRun(LocalRun& run, const RunArguments& arguments, const LiveArguments& live, double speed,
                  const ObserveStep& observe) {
   constexpr std::chrono::milliseconds kNap(10);  // requests are handled in between
   const Interrupt interrupt;
-  const FoxgloveOptions options = localOptions(address);
-  FoxgloveServing serving(options);
+  LiveServing serving(localOptions(live));
   const std::string run_id = std::to_string(std::random_device()());
   std::vector<std::string> why_not_driven(run.environment().robotCount());
   serving.begin(run, run_id, arguments.run.environment.seed, why_not_driven);
-  logInfo("run", foxgloveLine(options.server, serving.port()));
+  const auto follow_additions = [&] {
+    if (run.environment().robotCount() == why_not_driven.size()) return;
+    run.followAdditions();
+    why_not_driven.resize(run.environment().robotCount());
+    serving.addRobots(run, why_not_driven);
+  };
+  const Intervene intervene = [&run](const Intervention& change) { return run.environment().apply(change); };
   RunControl control;
   control.speed = speed;
   observe();
@@ -47,7 +57,8 @@ EndedBy serveRun(LocalRun& run, const RunArguments& arguments, const std::string
     if (interrupt.isRequested()) return EndedBy::interrupt;
     if (arguments.timeIsUp(run.environment().time())) return EndedBy::time_limit;
     const double former_speed = control.speed;
-    serving.poll(control, {});
+    serving.poll(control, {}, intervene);
+    follow_additions();
     const auto now = Clock::now();
     if (!control.mayStep() || control.speed != former_speed) due = now;
     if (!control.mayStep() || now < due) {
@@ -55,11 +66,7 @@ EndedBy serveRun(LocalRun& run, const RunArguments& arguments, const std::string
       continue;
     }
     run.step(observe);
-    if (run.environment().robotCount() != why_not_driven.size()) {
-      run.followAdditions();
-      why_not_driven.resize(run.environment().robotCount());
-      serving.addRobots(run, run_id, why_not_driven);
-    }
+    follow_additions();
     serving.stepped();
     if (control.steps_left > 0) --control.steps_left;
     if (control.speed > 0) due += fromSeconds(run.environment().time().period_s / control.speed);

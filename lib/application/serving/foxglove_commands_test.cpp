@@ -1,4 +1,4 @@
-#include "serving/foxglove_drivers.h"
+#include "serving/foxglove_commands.h"
 
 #include <chrono>
 #include <limits>
@@ -19,20 +19,21 @@ const char* const kTokens =
     "operator-0123456789abcdef operator name=anna\n";
 
 /// Two robots, whose controllers do nothing.
-struct FoxgloveDriversTest : testing::Test {
+struct FoxgloveCommandsTest : testing::Test {
   RunOptions options = [] {
     RunOptions made;
     made.controller = "still";
     return made;
   }();
   LocalRun run{loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", "still"), options};
-  FoxgloveDrivers::Clock::time_point now;
+  RobotDrivers::Clock::time_point now;
   std::string log;
   Access access = Access::parse(kTokens, "tokens");
-  FoxgloveDrivers drivers{access, [this](const std::string& line) { log += line + "\n"; }, [this] { return now; }};
+  RobotDrivers drivers{access, [this](const std::string& line) { log += line + "\n"; }, [this] { return now; }};
+  FoxgloveCommands commands{drivers};
   const foxglove::ClientChannel channel{1, "/Pioneer1/cmd_vel", "cdr", "geometry_msgs/msg/Twist"};
 
-  FoxgloveDriversTest() { drivers.begin(run, {"", ""}); }
+  FoxgloveCommandsTest() { drivers.begin(run, {"", ""}); }
 
   foxglove::Client client(PageId id, const std::string& token) const {
     return {id, "192.0.2.7", access.authenticate(token, "192.0.2.7").identity};
@@ -43,7 +44,7 @@ struct FoxgloveDriversTest : testing::Test {
     std::vector<std::uint8_t> bytes;
     ros::encode(message, bytes);
     const foxglove::ClientChannel of_type{1, channel.topic, "cdr", M::kType};
-    return drivers.published(by, {of_type, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}});
+    return commands.published(by, {of_type, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}});
   }
   std::string drive(const foxglove::Client& by, double speed_mps) {
     return publish(by, ros::Twist{{speed_mps, 0, 0}, {}});
@@ -55,8 +56,8 @@ struct FoxgloveDriversTest : testing::Test {
   }
 };
 
-TEST_F(FoxgloveDriversTest, DrivesARobotInsteadOfItsController) {
-  EXPECT_EQ(drivers.advertised(anna(), channel), "");
+TEST_F(FoxgloveCommandsTest, DrivesARobotInsteadOfItsController) {
+  EXPECT_EQ(commands.advertised(anna(), channel), "");
   EXPECT_EQ(drive(anna(), 0.2), "");
   EXPECT_EQ(command().speed_mps, 0.2);
   EXPECT_TRUE(command().by_driver);
@@ -64,22 +65,22 @@ TEST_F(FoxgloveDriversTest, DrivesARobotInsteadOfItsController) {
   EXPECT_NE(log.find("anna (192.0.2.7): drive Pioneer1"), std::string::npos) << log;
 }
 
-TEST_F(FoxgloveDriversTest, ReadsStampedAndJsonMessages) {
+TEST_F(FoxgloveCommandsTest, ReadsStampedAndJsonMessages) {
   EXPECT_EQ(publish(anna(), ros::TwistStamped{{{}, "Pioneer1/base_link"}, {{0.1, 0, 0}, {0, 0, 0.5}}}), "");
   EXPECT_EQ(command().speed_mps, 0.1);
   EXPECT_EQ(command().turn_radps, 0.5);
   const foxglove::ClientChannel as_json{1, channel.topic, "json", "geometry_msgs/Twist"};
-  EXPECT_EQ(drivers.published(anna(), {as_json, R"({"linear":{"x":0.3}})"}), "");
+  EXPECT_EQ(commands.published(anna(), {as_json, R"({"linear":{"x":0.3}})"}), "");
   EXPECT_EQ(command().speed_mps, 0.3);
-  EXPECT_EQ(drivers.published(anna(), {as_json, "[]"}), "the message is no JSON object");
-  EXPECT_EQ(drivers.published(anna(), {as_json, R"({"linear":{"x":"a"}})"}), "linear.x is no number");
-  EXPECT_EQ(drivers.published(anna(), {as_json, R"({"linear":1})"}), "linear is no object");
+  EXPECT_EQ(commands.published(anna(), {as_json, "[]"}), "the message is no JSON object");
+  EXPECT_EQ(commands.published(anna(), {as_json, R"({"linear":{"x":"a"}})"}), "linear.x is no number");
+  EXPECT_EQ(commands.published(anna(), {as_json, R"({"linear":1})"}), "linear is no object");
   const foxglove::ClientChannel stamped{1, channel.topic, "json", "geometry_msgs/msg/TwistStamped"};
-  EXPECT_EQ(drivers.published(anna(), {stamped, R"({"twist":1})"}), "twist is no object");
-  EXPECT_EQ(drivers.published(anna(), {stamped, R"({"twist":{"angular":{"z":0.5}}})"}), "");
+  EXPECT_EQ(commands.published(anna(), {stamped, R"({"twist":1})"}), "twist is no object");
+  EXPECT_EQ(commands.published(anna(), {stamped, R"({"twist":{"angular":{"z":0.5}}})"}), "");
 }
 
-TEST_F(FoxgloveDriversTest, StopsARobotWithoutMessagesOfItsDriver) {
+TEST_F(FoxgloveCommandsTest, StopsARobotWithoutMessagesOfItsDriver) {
   drive(anna(), 0.2);
   now += 500ms;
   EXPECT_EQ(command().speed_mps, 0.2);
@@ -88,17 +89,17 @@ TEST_F(FoxgloveDriversTest, StopsARobotWithoutMessagesOfItsDriver) {
   EXPECT_NE(log.find("Pioneer1 stops: no message from anna by Foxglove for 0.5 s"), std::string::npos) << log;
 }
 
-TEST_F(FoxgloveDriversTest, StopsARobotWhoseDriverHasLeft) {
+TEST_F(FoxgloveCommandsTest, StopsARobotWhoseDriverHasLeft) {
   drive(anna(), 0.2);
   EXPECT_EQ(command().speed_mps, 0.2);
-  drivers.withdrawn(anna(2), channel);
+  commands.withdrawn(anna(2), channel);
   EXPECT_EQ(command().speed_mps, 0.2) << "of another client";
-  drivers.withdrawn(anna(), channel);
+  commands.withdrawn(anna(), channel);
   EXPECT_EQ(command().speed_mps, 0);
   EXPECT_FALSE(drivers.autonomous()[0].second);
 }
 
-TEST_F(FoxgloveDriversTest, DrivesOnWhenARobotIsAddedAndDrivesThatToo) {
+TEST_F(FoxgloveCommandsTest, DrivesOnWhenARobotIsAddedAndDrivesThatToo) {
   drive(anna(), 0.2);
   ASSERT_EQ(run.environment().apply({"test", AddRobot{"New", "scout", {0, 0, 0}}}), "");
   run.followAdditions();
@@ -106,15 +107,15 @@ TEST_F(FoxgloveDriversTest, DrivesOnWhenARobotIsAddedAndDrivesThatToo) {
   EXPECT_EQ(command().speed_mps, 0.2) << "the driver stays";
   EXPECT_EQ(drive(anna(), 0.1), "");
   EXPECT_EQ(command().speed_mps, 0.1);
-  EXPECT_EQ(drivers.setAutonomous(anna(), "/Pioneer1/autonomous", true), "");
+  EXPECT_EQ(drivers.setAutonomous(driverOf(anna()), "/Pioneer1/autonomous", true), "");
   EXPECT_FALSE(command().by_driver) << "the controller continues";
   const foxglove::ClientChannel of_new{2, "/New/cmd_vel", "json", "geometry_msgs/Twist"};
-  EXPECT_EQ(drivers.published(anna(), {of_new, R"({"linear":{"x":0.3}})"}), "");
+  EXPECT_EQ(commands.published(anna(), {of_new, R"({"linear":{"x":0.3}})"}), "");
   run.step();
   EXPECT_EQ(run.environment().state().commands[2].speed_mps, 0.3);
 }
 
-TEST_F(FoxgloveDriversTest, LimitsTheSpeedToThatOfTheRobot) {
+TEST_F(FoxgloveCommandsTest, LimitsTheSpeedToThatOfTheRobot) {
   const double speed_max_mps = run.environment().fleet().robots[0].info.limits.speed_max_mps;
   drive(anna(), 1e9);
   EXPECT_EQ(command().speed_mps, speed_max_mps);
@@ -122,9 +123,9 @@ TEST_F(FoxgloveDriversTest, LimitsTheSpeedToThatOfTheRobot) {
   EXPECT_EQ(command().speed_mps, speed_max_mps) << "an invalid message has no effect";
 }
 
-TEST_F(FoxgloveDriversTest, HasOneDriverForARobotUntilItIsSilent) {
+TEST_F(FoxgloveCommandsTest, HasOneDriverForARobotUntilItIsSilent) {
   drive(anna(1), 0.2);
-  EXPECT_EQ(drive(anna(2), -0.2), "Pioneer1 is driven by another client, anna at 192.0.2.7");
+  EXPECT_EQ(drive(anna(2), -0.2), "Pioneer1 is driven by another client, anna by Foxglove at 192.0.2.7");
   EXPECT_EQ(command().speed_mps, 0.2);
   now += 501ms;
   EXPECT_EQ(drive(anna(2), -0.2), "");
@@ -132,30 +133,30 @@ TEST_F(FoxgloveDriversTest, HasOneDriverForARobotUntilItIsSilent) {
   EXPECT_NE(drive(anna(1), 0.2), "");
 }
 
-TEST_F(FoxgloveDriversTest, RequiresATokenForTheRobot) {
-  EXPECT_NE(drivers.advertised(client(3, "viewer-0123456789abcdef"), channel), "");
+TEST_F(FoxgloveCommandsTest, RequiresATokenForTheRobot) {
+  EXPECT_NE(commands.advertised(client(3, "viewer-0123456789abcdef"), channel), "");
   EXPECT_NE(drive(client(3, "viewer-0123456789abcdef"), 0.2), "");
   EXPECT_EQ(command().speed_mps, 0);
   const auto only_one = client(4, "only-one-0123456789abcdef");
   const foxglove::ClientChannel of_scout{1, "/Scout1/cmd_vel", "cdr", "geometry_msgs/msg/Twist"};
-  EXPECT_EQ(drivers.advertised(only_one, channel), "");
-  EXPECT_NE(drivers.advertised(only_one, of_scout), "");
-  EXPECT_EQ(drivers.setAutonomous(only_one, "/Pioneer1/autonomous", false), "");
-  EXPECT_NE(drivers.setAutonomous(only_one, "/Scout1/autonomous", false), "");
+  EXPECT_EQ(commands.advertised(only_one, channel), "");
+  EXPECT_NE(commands.advertised(only_one, of_scout), "");
+  EXPECT_EQ(drivers.setAutonomous(driverOf(only_one), "/Pioneer1/autonomous", false), "");
+  EXPECT_NE(drivers.setAutonomous(driverOf(only_one), "/Scout1/autonomous", false), "");
 }
 
-TEST_F(FoxgloveDriversTest, ReturnsARobotToItsController) {
+TEST_F(FoxgloveCommandsTest, ReturnsARobotToItsController) {
   drive(anna(), 0.2);
   EXPECT_EQ(drivers.autonomous()[0], (std::pair<std::string, bool>{"/Pioneer1/autonomous", false}));
-  EXPECT_EQ(drivers.setAutonomous(anna(), "/Pioneer1/autonomous", true), "");
+  EXPECT_EQ(drivers.setAutonomous(driverOf(anna()), "/Pioneer1/autonomous", true), "");
   EXPECT_TRUE(drivers.autonomous()[0].second);
   EXPECT_FALSE(command().by_driver);
   EXPECT_EQ(drive(anna(2), 0.1), "") << "without a driver, any client may drive";
 }
 
-TEST_F(FoxgloveDriversTest, RefusesWhatIsNoCommandOfARobot) {
+TEST_F(FoxgloveCommandsTest, RefusesWhatIsNoCommandOfARobot) {
   const auto why = [&](const std::string& topic, const std::string& encoding, const std::string& schema) {
-    return drivers.advertised(anna(), {1, topic, encoding, schema});
+    return commands.advertised(anna(), {1, topic, encoding, schema});
   };
   EXPECT_EQ(why("/Pioneer9/cmd_vel", "cdr", "geometry_msgs/msg/Twist"), "no robot has this topic");
   EXPECT_EQ(why("/Pioneer1/cmd_vel", "ros1", "geometry_msgs/msg/Twist"), "the encoding must be cdr or json");
@@ -165,16 +166,17 @@ TEST_F(FoxgloveDriversTest, RefusesWhatIsNoCommandOfARobot) {
       "on /<robot>/cmd_vel have an effect");
 }
 
-TEST(FoxgloveDriversOfOtherProcesses, StatesWhyARobotCannotBeDriven) {
+TEST(FoxgloveCommandsOfOtherProcesses, StatesWhyARobotCannotBeDriven) {
   RunOptions options;
   options.controller = "still";
   LocalRun run(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", "still"), options, {1, 0});
-  FoxgloveDrivers drivers({}, [](const std::string&) {});
+  RobotDrivers drivers({}, [](const std::string&) {});
+  FoxgloveCommands commands(drivers);
   drivers.begin(run, {"another process drives this robot", ""});
   const foxglove::Client client{1, "192.0.2.7", {}};
-  EXPECT_EQ(drivers.advertised(client, {1, "/Pioneer1/cmd_vel", "cdr", "geometry_msgs/msg/Twist"}),
+  EXPECT_EQ(commands.advertised(client, {1, "/Pioneer1/cmd_vel", "cdr", "geometry_msgs/msg/Twist"}),
             "another process drives this robot");
-  EXPECT_EQ(drivers.advertised(client, {1, "/Scout1/cmd_vel", "cdr", "geometry_msgs/msg/Twist"}), "");
+  EXPECT_EQ(commands.advertised(client, {1, "/Scout1/cmd_vel", "cdr", "geometry_msgs/msg/Twist"}), "");
   EXPECT_EQ(drivers.autonomous().size(), 1u);
 }
 

@@ -1,0 +1,63 @@
+#include "robosim/ros2_arguments.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error_list.h"
+#include "dds/participant.h"
+#include "robosim/arguments.h"
+#include "robosim/subcommands.h"
+
+namespace robosim {
+
+void addRos2Options(CLI::App& command, Ros2Arguments& a, const char* group, bool has_network) {
+  const CLI::Option* const ros2 =
+      command
+          .add_flag(std::string(kRos2Option), a.is_on,
+                    "publish the topics of ROS 2 over DDS, and let ROS 2 drive robots by /<robot>/cmd_vel; on this "
+                    "machine only" +
+                        std::string(has_network ? " unless --ros2-interface or --ros2-peer is given" : "") +
+                        " (doc/ros2.md)")
+          ->group(group);
+  const auto add = [&](CLI::Option* option) {
+    dependsOn(option, ros2);
+    return option->group(group);
+  };
+  add(command.add_option("--domain", a.domain, "domain of ROS 2, [0, 232]; default: ROS_DOMAIN_ID, or 0"))
+      ->type_name("NUMBER");
+  add(command.add_option("--namespace", a.name_space, "before the names of all topics but /clock, /tf and /tf_static"))
+      ->type_name("NAME");
+  add(command.add_flag("--ros2-supervise", a.may_supervise,
+                       "let ROS 2 place robots by /<robot>/initialpose, and add and remove robots and objects by "
+                       "/robosim/spawn and /robosim/remove"));
+  if (!has_network) return;
+  add(command.add_option("--ros2-interface", a.interface,
+                         "name or address of the network interface by which other machines are found and served"))
+      ->type_name("NAME|ADDRESS");
+  add(command.add_option("--ros2-peer", a.peers, "address of another machine, for networks without multicast"))
+      ->allow_extra_args(false)
+      ->type_name("ADDRESS");
+  add(command.add_flag("--ros2-unprotected", a.is_unprotected,
+                       "let all programs that reach the domain read the topics and drive, without passwords or "
+                       "encryption; needed for other machines, and beside --tokens"));
+}
+
+int ros2Domain(const Ros2Arguments& arguments) {
+  const auto checked = [](int domain, const std::string& what) {
+    if (domain >= 0 && domain <= dds::kMaxDomain) return domain;
+    throw ConfigError(what + ": must be a domain of ROS 2, from 0 to " + std::to_string(dds::kMaxDomain));
+  };
+  if (arguments.domain) return checked(*arguments.domain, "--domain " + std::to_string(*arguments.domain));
+  const char* const variable = std::getenv("ROS_DOMAIN_ID");
+  if (!variable || !*variable) return 0;
+  const std::string_view text = variable;
+  int domain = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
+  if (error != std::errc{} || end != text.data() + text.size()) domain = -1;
+  return checked(domain, "ROS_DOMAIN_ID=" + std::string(text));
+}
+
+}  // namespace robosim

@@ -1,0 +1,54 @@
+#include "serving/ros2_serving.h"
+
+#include <utility>
+
+#include "ros/cdr.h"
+#include "ros/messages.h"
+
+namespace robosim {
+
+Ros2Serving::Ros2Serving(const Ros2Options& options, RobotDrivers& drivers)
+    : options_(options),
+      drivers_(drivers),
+      log_(options.dds.log),
+      audit_(options.dds.log),
+      participant_(options.join(options.dds)),
+      outlet_(*participant_, options.name_space) {}
+
+Ros2Serving::~Ros2Serving() = default;
+
+void Ros2Serving::begin(const Environment& environment) {
+  environment_ = &environment;
+  readers_.clear();
+  offer(true);
+}
+
+void Ros2Serving::addRobots() { offer(false); }
+
+void Ros2Serving::offer(bool is_another_run) {
+  feed_.emplace(outlet_, *environment_);
+  outlet_.offer(feed_->topics(), is_another_run);
+  if (!options_.may_drive) return;
+  for (const auto& topic : drivers_.topics()) {
+    if (readers_.count(topic) > 0) continue;
+    readCommands<ros::Twist>(topic, [](const ros::Twist& twist) { return twist; });
+    readCommands<ros::TwistStamped>(topic, [](const ros::TwistStamped& stamped) { return stamped.twist; });
+  }
+}
+
+/// Reads commands of one type. The readers take what is lost as lost: a later command replaces it.
+template <ros::Message M, typename TwistOf>
+void Ros2Serving::readCommands(const std::string& topic, const TwistOf& twist_of) {
+  const Topic read{ros2TopicName(options_.name_space, topic), &ros::typeOf<M>(), TopicDelivery::steady};
+  const std::string peer = "domain " + std::to_string(options_.dds.domain);
+  readers_[topic].push_back(
+      participant_->read(read, dds::Receipt::best_effort, [this, topic, twist_of, peer](const dds::Sample& sample) {
+        const ros::Twist twist = twist_of(ros::decode<M>(sample.message));
+        const std::string why = drivers_.drive({"ROS 2", sample.writer, peer}, topic, twist);
+        if (!why.empty()) log_.write("commands of ROS 2", topic + " of ROS 2 has no effect: " + why);
+      }));
+}
+
+void Ros2Serving::poll(const Intervene& /*intervene*/) { feed_->poll(); }
+
+}  // namespace robosim

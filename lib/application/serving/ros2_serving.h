@@ -1,0 +1,74 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/log_limiter.h"
+#include "dds/participant.h"
+#include "environment/environment.h"
+#include "net/audit.h"
+#include "serving/robot_drivers.h"
+#include "serving/ros2_outlet.h"
+#include "serving/topic_feed.h"
+
+namespace robosim {
+
+struct Ros2Options {
+  dds::Options dds;
+  /// Joins the domain; of the library that implements it.
+  std::function<std::unique_ptr<dds::Participant>(const dds::Options&)> join;
+  std::string name_space;      ///< as of ros2Namespace()
+  bool may_drive = true;       ///< any program of the domain may drive robots
+  bool may_supervise = false;  ///< any program of the domain may place, add and remove robots and objects
+};
+
+/// Applies a change between two steps. @return what is wrong; empty when it is applied
+using Intervene = std::function<std::string(const Intervention&)>;
+
+/// Connects the runs of a program to ROS 2 over DDS: topics (TopicFeed), driving (RobotDrivers), and changes by a
+/// supervisor. DDS has neither tokens nor passwords: Ros2Options decides about rights. All functions are called by the
+/// thread that steps the environment; none of them waits.
+class Ros2Serving {
+ public:
+  /// Joins the domain. @param drivers of the runs; must outlive this @throws as Ros2Options::join
+  Ros2Serving(const Ros2Options& options, RobotDrivers& drivers);
+  ~Ros2Serving();
+
+  /// Serves a run instead of the one before. @param environment must outlive its time here
+  void begin(const Environment& environment);
+  /// Serves the robots that have been added to the run, too.
+  void addRobots();
+  /// Executes changes, and sends the state to new readers. Between steps, at least every ServingState::kPollInterval.
+  void poll(const Intervene& intervene);
+  /// Sends the messages of a step.
+  void stepped() { feed_->stepped(); }
+  /// As TopicFeed
+  std::vector<std::uint8_t> pictured() const { return feed_->pictured(); }
+  /// Number of messages that were dropped, because the network or a reader was too slow.
+  std::uint64_t lost() const { return participant_->lost(); }
+
+ private:
+  void offer(bool is_another_run);
+  template <ros::Message M, typename TwistOf>
+  void readCommands(const std::string& topic, const TwistOf& twist_of);
+  void readChanges();
+
+  Ros2Options options_;
+  RobotDrivers& drivers_;
+  LogLimiter log_;
+  AuditLog audit_;
+  std::unique_ptr<dds::Participant> participant_;
+  Ros2Outlet outlet_;
+  const Environment* environment_ = nullptr;
+  std::optional<TopicFeed> feed_;
+  std::mutex mutex_;
+  std::vector<Change> changes_;                                               ///< to be executed; guarded by the mutex
+  std::map<std::string, std::vector<std::unique_ptr<dds::Reader>>> readers_;  ///< by topic; ended first
+};
+
+}  // namespace robosim

@@ -1,0 +1,139 @@
+#include "serving/topic_feed.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "run/outputs/intervention_note.h"
+
+namespace robosim {
+
+/// Passes the messages of a robot to the outlet.
+class TopicFeed::Sink final : public TopicSink {
+ public:
+  Sink(TopicOutlet& outlet, const std::vector<std::size_t>& topics, Audience audience, std::uint64_t time_ns)
+      : outlet_(outlet), topics_(topics), audience_(audience), time_ns_(time_ns) {}
+
+  bool wants(std::size_t topic) const override { return outlet_.wants(topics_[topic], audience_); }
+  std::vector<std::uint8_t>& beginMessage(std::size_t topic) override {
+    topic_ = topics_[topic];
+    bytes_.clear();
+    return bytes_;
+  }
+  void endMessage() override {
+    outlet_.send(topic_, audience_, time_ns_, std::move(bytes_), false);
+    bytes_ = {};
+  }
+
+ private:
+  TopicOutlet& outlet_;
+  const std::vector<std::size_t>& topics_;
+  Audience audience_;
+  std::uint64_t time_ns_;
+  std::size_t topic_ = 0;
+  std::vector<std::uint8_t> bytes_;
+};
+
+TopicFeed::TopicFeed(TopicOutlet& outlet, const Environment& environment)
+    : outlet_(outlet), environment_(environment), world_(environment.model()) {
+  clock_ = indexOf({"/clock", &ros::typeOf<ros::Clock>(), TopicDelivery::steady});
+  static_transforms_ = indexOf({"/tf_static", &ros::typeOf<ros::TFMessage>(), TopicDelivery::latched});
+  map_ = indexOf({"/map", &ros::typeOf<ros::OccupancyGrid>(), TopicDelivery::latched});
+  objects_ = indexOf({"/objects", &ros::typeOf<ros::MarkerArray>(), TopicDelivery::latched});
+  interventions_ = indexOf({"/interventions", &ros::typeOf<ros::String>(), TopicDelivery::steady});
+  events_ = indexOf({"/events", &ros::typeOf<ros::String>(), TopicDelivery::steady});
+  for (const auto& robot : environment.fleet().robots) {
+    const RobotTopics& topics = robots_.emplace_back(robot.info);
+    auto& indices = topics_of_robot_.emplace_back();
+    auto& pictures = pictures_of_robot_.emplace_back();
+    for (const auto& topic : topics.topics()) {
+      indices.push_back(indexOf(topic));
+      if (topic.type == &ros::typeOf<ros::CompressedImage>()) pictures.push_back(indices.back());
+    }
+    kept_.emplace_back(robot.info.sensors);
+  }
+  was_absent_.resize(robots_.size());
+}
+
+std::size_t TopicFeed::indexOf(const Topic& topic) {
+  const auto [found, is_new] = index_of_.try_emplace(topic.name, topics_.size());
+  if (is_new) topics_.push_back(topic);
+  return found->second;
+}
+
+std::vector<std::uint8_t> TopicFeed::pictured() const {
+  std::vector<std::uint8_t> robots(robots_.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    robots[i] = std::any_of(pictures_of_robot_[i].begin(), pictures_of_robot_[i].end(),
+                            [this](std::size_t topic) { return outlet_.isSubscribed(topic); });
+  }
+  return robots;
+}
+
+void TopicFeed::poll() {
+  if (!outlet_.hasFresh()) return;
+  outlet_.beginRound(nanosecondsOf(environment_.time().seconds()));
+  sendLatched();
+  sendRobots(Audience::fresh);
+  outlet_.endRound();
+}
+
+void TopicFeed::stepped() {
+  const State& state = environment_.state();
+  const std::uint64_t time_ns = nanosecondsOf(state.time.seconds());
+  const std::string winner = state.winner() ? environment_.robotNames()[*state.winner()] : "";
+  outlet_.beginRound(time_ns);
+  if (outlet_.wants(clock_, Audience::all)) {
+    send(topicMessage("/clock", TopicDelivery::steady, time_ns, ros::Clock{timeOf(time_ns)}), Audience::all);
+  }
+  if (outlet_.wants(objects_, Audience::all) || outlet_.wants(interventions_, Audience::all) ||
+      outlet_.wants(events_, Audience::all)) {
+    for (auto& message : world_.of(state.objects, notesBefore(state, state.time.step, false), winner, time_ns)) {
+      send(std::move(message), Audience::all);
+    }
+  } else {
+    world_.startFrom(state.objects, winner);
+  }
+  sendLatched();
+  sendRobots(Audience::all);
+  outlet_.endRound();
+}
+
+/// The state that is not sent in each step, to those who have come since the last round.
+void TopicFeed::sendLatched() {
+  const std::uint64_t time_ns = nanosecondsOf(environment_.time().seconds());
+  if (outlet_.wants(static_transforms_, Audience::fresh)) {
+    send(staticTransforms(robots_, time_ns), Audience::fresh, true);
+  }
+  if (outlet_.wants(map_, Audience::fresh)) send(world_.map(time_ns), Audience::fresh, true);
+  if (outlet_.wants(objects_, Audience::fresh)) {
+    send(world_.objects(environment_.state().objects, time_ns), Audience::fresh, true);
+  }
+}
+
+void TopicFeed::sendRobots(Audience audience) {
+  const State& state = environment_.state();
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const bool is_absent = state.isAbsent(i);
+    if (std::exchange(was_absent_[i], is_absent) != is_absent) kept_[i].forget();
+    if (is_absent) continue;
+    if (!isWanted(i, audience)) continue;
+    const Readings& readings = state.readings[i];
+    std::vector<std::uint8_t> kept;
+    for (std::size_t sensor = 0; audience == Audience::all && sensor < readings.measurements.size(); ++sensor) {
+      kept.push_back(kept_[i].isKept(sensor, readings));
+    }
+    Sink sink(outlet_, topics_of_robot_[i], audience, nanosecondsOf(readings.time.seconds()));
+    robots_[i].write(readings, state.world_from_robot[i], state.commands[i], kept, sink);
+  }
+}
+
+bool TopicFeed::isWanted(std::size_t robot, Audience audience) const {
+  const auto& topics = topics_of_robot_[robot];
+  return std::any_of(topics.begin(), topics.end(), [&](std::size_t topic) { return outlet_.wants(topic, audience); });
+}
+
+void TopicFeed::send(TopicMessage message, Audience audience, bool latest_only) {
+  outlet_.send(index_of_.at(message.topic.name), audience, message.time_ns, std::move(message.data), latest_only);
+}
+
+}  // namespace robosim

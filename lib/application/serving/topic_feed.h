@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "environment/environment.h"
+#include "recording/kept_readings.h"
+#include "run/outputs/world_topics.h"
+#include "serving/topic_outlet.h"
+#include "topics/robot_topics.h"
+
+namespace robosim {
+
+/// Passes the topics of a run to an outlet: those of its recordings as MCAP (doc/ros2.md). Messages are made for topics
+/// with receivers only. A new receiver first gets the present state. It reads the run and never changes it.
+class TopicFeed {
+ public:
+  /// @param outlet, environment must outlive this
+  TopicFeed(TopicOutlet& outlet, const Environment& environment);
+
+  const std::vector<Topic>& topics() const { return topics_; }
+  /// Passes the present state to new receivers. To be called between steps.
+  void poll();
+  /// Passes the messages of a step.
+  void stepped();
+  /// By robot: whether its pictures are received. Empty for none.
+  std::vector<std::uint8_t> pictured() const;
+
+ private:
+  class Sink;
+  using Audience = TopicOutlet::Audience;
+
+  std::size_t indexOf(const Topic& topic);
+  void send(TopicMessage message, Audience audience, bool latest_only = false);
+  void sendRobots(Audience audience);
+  void sendLatched();
+  bool isWanted(std::size_t robot, Audience audience) const;
+
+  TopicOutlet& outlet_;
+  const Environment& environment_;
+  std::vector<Topic> topics_;
+  std::map<std::string, std::size_t> index_of_;  ///< by the topic's name
+  std::vector<RobotTopics> robots_;
+  std::vector<std::vector<std::size_t>> topics_of_robot_;    ///< by robot and its topic
+  std::vector<std::vector<std::size_t>> pictures_of_robot_;  ///< topics with pictures
+  std::vector<KeptReadings> kept_;
+  std::vector<std::uint8_t> was_absent_;  ///< by robot
+  WorldTopics world_;
+  std::size_t clock_ = 0, static_transforms_ = 0, map_ = 0, objects_ = 0, interventions_ = 0, events_ = 0;
+};
+
+}  // namespace robosim
