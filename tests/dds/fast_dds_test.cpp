@@ -136,7 +136,7 @@ using All =
                    Both<ros::Range, fast::Range>, Both<ros::TFMessage, fast::TFMessage>, Both<ros::Clock, fast::Clock>,
                    Both<ros::OccupancyGrid, fast::OccupancyGrid>, Both<ros::PointCloud2, fast::PointCloud2>,
                    Both<ros::BatteryState, fast::BatteryState>, Both<ros::String, fast::String>,
-                   Both<ros::Twist, fast::Twist>, Both<ros::TwistStamped, fast::TwistStamped>,
+                   Both<ros::Twist, fast::Twist>, Both<ros::TwistStamped, fast::TwistStamped>, Both<ros::PoseWithCovarianceStamped, fast::PoseWithCovarianceStamped>,
                    Both<ros::Temperature, fast::Temperature>, Both<ros::Imu, fast::Imu>,
                    Both<ros::CompressedImage, fast::CompressedImage>, Both<ros::CameraInfo, fast::CameraInfo>,
                    Both<ros::UInt8MultiArray, fast::UInt8MultiArray>,

@@ -3,7 +3,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +10,8 @@
 #include "base/log_limiter.h"
 #include "dds/participant.h"
 #include "environment/environment.h"
-#include "net/audit.h"
 #include "serving/robot_drivers.h"
+#include "serving/ros2_changes.h"
 #include "serving/ros2_outlet.h"
 #include "serving/topic_feed.h"
 
@@ -27,12 +26,9 @@ struct Ros2Options {
   bool may_supervise = false;  ///< any program of the domain may place, add and remove robots and objects
 };
 
-/// Applies a change between two steps. @return what is wrong; empty when it is applied
-using Intervene = std::function<std::string(const Intervention&)>;
-
 /// Connects the runs of a program to ROS 2 over DDS: topics (TopicFeed), driving (RobotDrivers), and changes by a
-/// supervisor. DDS has neither tokens nor passwords: Ros2Options decides about rights. All functions are called by the
-/// thread that steps the environment; none of them waits.
+/// supervisor (Ros2Changes). DDS has neither tokens nor passwords: Ros2Options decides about rights. All functions are
+/// called by the thread that steps the environment; none of them waits.
 class Ros2Serving {
  public:
   /// Joins the domain. @param drivers of the runs; must outlive this @throws as Ros2Options::join
@@ -53,21 +49,19 @@ class Ros2Serving {
   std::uint64_t lost() const { return participant_->lost(); }
 
  private:
+  std::string peer() const;
   void offer(bool is_another_run);
   template <ros::Message M, typename TwistOf>
   void readCommands(const std::string& topic, const TwistOf& twist_of);
-  void readChanges();
 
   Ros2Options options_;
   RobotDrivers& drivers_;
   LogLimiter log_;
-  AuditLog audit_;
   std::unique_ptr<dds::Participant> participant_;
   Ros2Outlet outlet_;
   const Environment* environment_ = nullptr;
   std::optional<TopicFeed> feed_;
-  std::mutex mutex_;
-  std::vector<Change> changes_;                                               ///< to be executed; guarded by the mutex
+  std::optional<Ros2Changes> changes_;                                        ///< nullopt: not permitted
   std::map<std::string, std::vector<std::unique_ptr<dds::Reader>>> readers_;  ///< by topic; ended first
 };
 

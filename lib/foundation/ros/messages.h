@@ -172,6 +172,17 @@ struct PoseWithCovariance {
   bool operator==(const PoseWithCovariance&) const = default;
 };
 
+struct PoseWithCovarianceStamped {
+  Header header;
+  PoseWithCovariance pose;
+  static constexpr const char* kType = "geometry_msgs/msg/PoseWithCovarianceStamped";
+  static void describe(auto& self, auto&& visit) {
+    visit("header", self.header);
+    visit("pose", self.pose);
+  }
+  bool operator==(const PoseWithCovarianceStamped&) const = default;
+};
+
 struct Twist {
   Vector3 linear;   ///< [m/s]
   Vector3 angular;  ///< [rad/s]
