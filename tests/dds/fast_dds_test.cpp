@@ -131,16 +131,15 @@ struct FastDds : testing::Test {
   Topic topic{"/robot1/topic", &ros::typeOf<typename B::Our>(), TopicDelivery::steady};
 };
 
-using All =
-    testing::Types<Both<ros::LaserScan, fast::LaserScan>, Both<ros::Odometry, fast::Odometry>,
-                   Both<ros::Range, fast::Range>, Both<ros::TFMessage, fast::TFMessage>, Both<ros::Clock, fast::Clock>,
-                   Both<ros::OccupancyGrid, fast::OccupancyGrid>, Both<ros::PointCloud2, fast::PointCloud2>,
-                   Both<ros::BatteryState, fast::BatteryState>, Both<ros::String, fast::String>,
-                   Both<ros::Twist, fast::Twist>, Both<ros::TwistStamped, fast::TwistStamped>, Both<ros::PoseWithCovarianceStamped, fast::PoseWithCovarianceStamped>,
-                   Both<ros::Temperature, fast::Temperature>, Both<ros::Imu, fast::Imu>,
-                   Both<ros::CompressedImage, fast::CompressedImage>, Both<ros::CameraInfo, fast::CameraInfo>,
-                   Both<ros::UInt8MultiArray, fast::UInt8MultiArray>,
-                   Both<ros::Float64MultiArray, fast::Float64MultiArray>, Both<ros::MarkerArray, fast::MarkerArray>>;
+using All = testing::Types<
+    Both<ros::LaserScan, fast::LaserScan>, Both<ros::Odometry, fast::Odometry>, Both<ros::Range, fast::Range>,
+    Both<ros::TFMessage, fast::TFMessage>, Both<ros::Clock, fast::Clock>, Both<ros::OccupancyGrid, fast::OccupancyGrid>,
+    Both<ros::PointCloud2, fast::PointCloud2>, Both<ros::BatteryState, fast::BatteryState>,
+    Both<ros::String, fast::String>, Both<ros::Twist, fast::Twist>, Both<ros::TwistStamped, fast::TwistStamped>,
+    Both<ros::PoseWithCovarianceStamped, fast::PoseWithCovarianceStamped>, Both<ros::Temperature, fast::Temperature>,
+    Both<ros::Imu, fast::Imu>, Both<ros::CompressedImage, fast::CompressedImage>,
+    Both<ros::CameraInfo, fast::CameraInfo>, Both<ros::UInt8MultiArray, fast::UInt8MultiArray>,
+    Both<ros::Float64MultiArray, fast::Float64MultiArray>, Both<ros::MarkerArray, fast::MarkerArray>>;
 TYPED_TEST_SUITE(FastDds, All);
 
 TYPED_TEST(FastDds, ReceivesEveryValue) {

@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include <linux/filter.h>
+#include <linux/if_arp.h>
 #include <linux/if_packet.h>
-#include <net/if.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
@@ -29,8 +29,8 @@ int udpPort(int file) {
 
 void ignoreOtherMachinesOn(int socket) {
   sock_filter steps[] = {
-      {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<__u32>(SKF_AD_OFF + SKF_AD_IFINDEX)},
-      {BPF_JMP | BPF_JEQ | BPF_K, 2, 0, if_nametoindex("lo")},
+      {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<__u32>(SKF_AD_OFF + SKF_AD_HATYPE)},
+      {BPF_JMP | BPF_JEQ | BPF_K, 2, 0, ARPHRD_LOOPBACK},
       {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<__u32>(SKF_AD_OFF + SKF_AD_PKTTYPE)},
       {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, PACKET_LOOPBACK},
       {BPF_RET | BPF_K, 0, 0, ~0u},  // the whole packet
