@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   robosim::addArcosBenchmark(program);
   robosim::addOdometryBenchmark(program);
   robosim::addErrorsBenchmark(program);
+  robosim::addRecordingBenchmark(program);
   program.footer(
       "Figures and conditions: doc/performance.md.\n"
       "Try:  robosim_bench speed --workload sonar --robots 1000");

@@ -7,7 +7,7 @@
 #include "robosim_bench/enki.h"
 #include "robosim_bench/rays.h"
 #include "robosim_bench/robots.h"
-#include "robosim_bench/small_run.h"
+#include "robosim_bench/recorded_run.h"
 
 namespace robosim {
 
@@ -25,7 +25,7 @@ struct SpeedFigures {
   std::vector<Cost> one_two;        ///< the same of kMany with one thread, and with two
   LoadingFigures some_loaded;       ///< of the world of kSome robots with sonars
   LoadingFigures many_loaded;
-  SmallRunFigures small_run;
+  RecordingFigures small_run;
 };
 
 /// Every workload with 100, 1,000 and 10,000 robots by one thread and 1,000 by two; and the sonar workloads with
