@@ -52,6 +52,7 @@ std::vector<std::uint8_t> unpackLz4(std::span<const std::uint8_t> packed, std::u
 
 struct ZstdPacker::Context {
   ZSTD_CCtx* zstd = ZSTD_createCCtx();
+  std::vector<std::uint8_t> frame;  ///< reused
   Context() {
     if (zstd == nullptr) throw std::bad_alloc();
     ZSTD_CCtx_setParameter(zstd, ZSTD_c_compressionLevel, kLevel);
@@ -65,12 +66,12 @@ ZstdPacker::ZstdPacker() : context_(std::make_unique<Context>()) {}
 ZstdPacker::~ZstdPacker() = default;
 
 void ZstdPacker::pack(std::span<const std::uint8_t> records, std::vector<std::uint8_t>& out) {
-  const std::size_t begin = out.size();
-  out.resize(begin + ZSTD_compressBound(records.size()));
-  const std::size_t size =
-      ZSTD_compress2(context_->zstd, out.data() + begin, out.size() - begin, records.data(), records.size());
+  // Room for the largest frame is not cleared for each chunk.
+  auto& frame = context_->frame;
+  if (const std::size_t bound = ZSTD_compressBound(records.size()); frame.size() < bound) frame.resize(bound);
+  const std::size_t size = ZSTD_compress2(context_->zstd, frame.data(), frame.size(), records.data(), records.size());
   if (ZSTD_isError(size)) throw std::bad_alloc();  // its only possible error
-  out.resize(begin + size);
+  out.insert(out.end(), frame.data(), frame.data() + size);
 }
 
 std::vector<std::uint8_t> unpack(std::span<const std::uint8_t> packed, const std::string& compression,

@@ -1,7 +1,10 @@
 #include "mcap/writer.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -15,9 +18,22 @@ std::uint16_t nextId(std::size_t count, const char* what) {
   return static_cast<std::uint16_t>(count);
 }
 
+/// Bytes of a message's record before its data: channel, sequence number and two times.
+constexpr std::size_t kMessageHeadBytes = 2 + 4 + 8 + 8;
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they are in memory");
+
 std::span<const std::uint8_t> magic() { return {reinterpret_cast<const std::uint8_t*>(kMagic.data()), kMagic.size()}; }
 
 }  // namespace
+
+/// What precedes the data of a message.
+struct Writer::MessageHead {
+  std::array<std::uint8_t, kRecordPrefixBytes + kMessageHeadBytes> bytes{static_cast<std::uint8_t>(Opcode::message)};
+  template <typename Number>
+  void set(std::size_t position, Number number) {
+    std::memcpy(bytes.data() + position, &number, sizeof number);
+  }
+};
 
 struct Writer::Packer {
   ZstdPacker zstd;
@@ -47,7 +63,7 @@ std::uint16_t Writer::addChannel(Channel channel) {
   return channels_.back().channel.id;
 }
 
-std::vector<std::uint8_t>& Writer::beginMessage(std::uint16_t id, std::uint64_t time_ns) {
+void Writer::appendHead(std::uint16_t id, std::uint64_t time_ns, std::size_t data_bytes) {
   ChannelState& state = channels_.at(id);
   if (!std::exchange(state.is_written, true)) {
     const std::uint16_t schema = state.channel.schema_id;
@@ -59,19 +75,25 @@ std::vector<std::uint8_t>& Writer::beginMessage(std::uint16_t id, std::uint64_t 
   chunk_end_ns_ = has_messages_ ? std::max(chunk_end_ns_, time_ns) : time_ns;
   has_messages_ = true;
   ++state.messages;
-  RecordWriter writer(records_);
-  message_ = writer.begin(Opcode::message);
-  writer.u16(id);
-  writer.u32(state.sequence++);
-  writer.u64(time_ns);  // of recording
-  writer.u64(time_ns);  // of publishing
+  MessageHead head;
+  head.set(kRecordPrefixBytes - 8, kMessageHeadBytes + data_bytes);
+  head.set(kRecordPrefixBytes, id);
+  head.set(kRecordPrefixBytes + 2, state.sequence++);
+  head.set(kRecordPrefixBytes + 6, time_ns);   // of recording
+  head.set(kRecordPrefixBytes + 14, time_ns);  // of publishing
+  records_.insert(records_.end(), head.bytes.begin(), head.bytes.end());
+}
+
+std::vector<std::uint8_t>& Writer::beginMessage(std::uint16_t channel, std::uint64_t time_ns) {
+  appendHead(channel, time_ns, 0);
+  message_ = records_.size() - kMessageHeadBytes;
   return records_;
 }
 
 void Writer::write(std::uint16_t channel, std::uint64_t time_ns, std::span<const std::uint8_t> data) {
-  auto& bytes = beginMessage(channel, time_ns);
-  bytes.insert(bytes.end(), data.begin(), data.end());
-  endMessage();
+  appendHead(channel, time_ns, data.size());
+  records_.insert(records_.end(), data.begin(), data.end());
+  if (records_.size() >= chunk_bytes_) writeChunk();
 }
 
 void Writer::endMessage() {
@@ -112,10 +134,9 @@ void Writer::writeChunk() {
     const std::size_t begin_index = writer.begin(Opcode::message_index);
     writer.u16(state.channel.id);
     writer.u32(static_cast<std::uint32_t>(16 * state.in_chunk.size()));
-    for (const auto& entry : state.in_chunk) {
-      writer.u64(entry.time_ns);
-      writer.u64(entry.offset);
-    }
+    static_assert(sizeof(IndexEntry) == 16, "written as it is in memory");
+    const auto* const entries = reinterpret_cast<const std::uint8_t*>(state.in_chunk.data());
+    packed_.insert(packed_.end(), entries, entries + state.in_chunk.size() * sizeof(IndexEntry));
     writer.end(begin_index);
     state.in_chunk.clear();
   }

@@ -54,8 +54,11 @@ class Writer {
     std::uint64_t messages = 0;
     std::vector<IndexEntry> in_chunk{};
   };
+  struct MessageHead;
   struct Packer;
 
+  /// Appends the beginning of a message's record, and what must precede it.
+  void appendHead(std::uint16_t channel, std::uint64_t time_ns, std::size_t data_bytes);
   void writeChunk();
   void put(std::span<const std::uint8_t> bytes);
   void writeSummary();

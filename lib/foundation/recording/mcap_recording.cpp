@@ -20,6 +20,9 @@ class McapRecording::ChannelSink final : public TopicSink {
     return writer_.beginMessage(channels_[topic], time_ns_);
   }
   void endMessage() override { writer_.endMessage(); }
+  void put(std::size_t topic, std::span<const std::uint8_t> message) override {
+    writer_.write(channels_[topic], time_ns_, message);
+  }
 
  private:
   mcap::Writer& writer_;

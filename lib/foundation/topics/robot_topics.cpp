@@ -71,10 +71,69 @@ ros::MultiArrayLayout layoutOf(const std::string& label, std::size_t size) {
   return {{{label, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(size)}}, 0};
 }
 
-ros::CameraInfo infoOf(const CameraInfo& camera) {
+/// The changing fields of a message, of which the first two are its stamp.
+constexpr std::size_t kSeconds = 0, kNanoseconds = 1, kFirst = 2;
+
+template <ros::Message M, typename... Fields>
+ros::MessageTemplate stamped(const M& message, const Fields&... changing) {
+  return ros::MessageTemplate(message, message.header.stamp.sec, message.header.stamp.nanosec, changing...);
+}
+
+/// Fields of odometryTemplate() after the stamp.
+enum OdometryField : std::size_t { kX = kFirst, kY, kRotationZ, kRotationW, kSpeed, kTurn };
+
+ros::MessageTemplate odometryTemplate(const std::string& parent, const std::string& child) {
+  ros::Odometry message;
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  const auto& [position, orientation] = message.pose.pose;
+  const auto& [linear, angular] = message.twist.twist;
+  return stamped(message, position.x, position.y, orientation.z, orientation.w, linear.x, angular.z);
+}
+
+/// Has the fields of odometryTemplate() up to the rotation.
+ros::MessageTemplate transformTemplate(const std::string& parent, const std::string& child) {
+  const ros::TFMessage message{{transformOf(parent, child, {})}};
+  const auto& [header, child_frame, transform] = message.transforms[0];
+  return ros::MessageTemplate(message, header.stamp.sec, header.stamp.nanosec, transform.translation.x,
+                              transform.translation.y, transform.rotation.z, transform.rotation.w);
+}
+
+void setPose(ros::MessageTemplate& message, const TPose2D& pose) {
+  const ros::Quaternion rotation = rotationOf(pose.phi, 0, 0);
+  message.set(kX, pose.x);
+  message.set(kY, pose.y);
+  message.set(kRotationZ, rotation.z);
+  message.set(kRotationW, rotation.w);
+}
+
+/// Points in a robot's frame, of which there are none yet. Their number and bytes are before and after the last byte of
+/// the template, and its length.
+ros::MessageTemplate cloudTemplate(const std::string& frame) {
+  ros::PointCloud2 cloud;
+  cloud.header.frame_id = frame;
+  cloud.height = 1;
+  cloud.point_step = 12;
+  cloud.fields = {{"x", 0, ros::PointField::kFloat32, 1},
+                  {"y", 4, ros::PointField::kFloat32, 1},
+                  {"z", 8, ros::PointField::kFloat32, 1}};
+  cloud.is_dense = true;
+  return stamped(cloud, cloud.width, cloud.row_step);
+}
+
+/// A picture without its bytes, whose number is that of the last four.
+ros::MessageTemplate pictureTemplate(const std::string& frame) {
+  ros::CompressedImage picture;
+  picture.header.frame_id = frame;
+  picture.format = "jpeg";
+  return stamped(picture);
+}
+
+ros::MessageTemplate cameraTemplate(const CameraInfo& camera, const std::string& frame) {
   const double focal_px = camera.focalLength();
   const double x = camera.width_px / 2.0, y = camera.height_px / 2.0;
   ros::CameraInfo info;
+  info.header.frame_id = frame;
   info.height = camera.height_px;
   info.width = camera.width_px;
   info.distortion_model = "plumb_bob";
@@ -83,7 +142,31 @@ ros::CameraInfo infoOf(const CameraInfo& camera) {
   info.k = {focal_px, 0, x, 0, focal_px, y, 0, 0, 1};
   info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   info.p = {focal_px, 0, x, 0, 0, focal_px, y, 0, 0, 0, 1, 0};
-  return info;
+  return stamped(info);
+}
+
+ros::MessageTemplate temperatureTemplate(const std::string& frame) {
+  ros::Temperature message;
+  message.header.frame_id = frame;
+  return stamped(message, message.temperature);
+}
+
+ros::MessageTemplate batteryTemplate(const std::string& frame) {
+  ros::BatteryState battery;
+  battery.header.frame_id = frame;
+  for (float* unmeasured : {&battery.temperature, &battery.current, &battery.charge, &battery.capacity,
+                            &battery.design_capacity, &battery.percentage}) {
+    *unmeasured = kNotMeasured;
+  }
+  battery.present = true;
+  return stamped(battery, battery.voltage);
+}
+
+ros::MessageTemplate compassTemplate(const std::string& frame) {
+  ros::Imu imu;
+  imu.header.frame_id = frame;
+  imu.angular_velocity_covariance[0] = imu.linear_acceleration_covariance[0] = -1;
+  return stamped(imu, imu.orientation.z, imu.orientation.w);
 }
 
 }  // namespace
@@ -106,9 +189,17 @@ RobotTopics::RobotTopics(const RobotInfo& robot)
       sensors_(robot.sensors) {
   topics_.push_back({"/tf", &ros::typeOf<ros::TFMessage>(), TopicDelivery::transforms});
   truth_ = addTopic("ground_truth", ros::typeOf<ros::Odometry>(), TopicDelivery::steady);
+  truth_message_ = odometryTemplate("map", base_frame_);
   command_ = addTopic("cmd_vel", ros::typeOf<ros::Twist>(), TopicDelivery::steady);
+  const ros::Twist command;
+  command_message_ = ros::MessageTemplate(command, command.linear.x, command.angular.z);
   inbox_ = addTopic("messages", ros::typeOf<ros::String>(), TopicDelivery::steady);
+  transform_message_ = transformTemplate(odom_frame_, base_frame_);
   for (const auto& sensor : *sensors_) addSensor(sensor);
+  const auto odometries =
+      std::count_if(sensors_->begin(), sensors_->end(), [](const auto& s) { return s.kind == SensorKind::odometry; });
+  has_one_transform_ =
+      odometries == 1 && std::none_of(sensors_->begin(), sensors_->end(), [](const auto& s) { return s.pans; });
 }
 
 std::size_t RobotTopics::addTopic(const std::string& name, const ros::MessageType& type, TopicDelivery delivery) {
@@ -127,7 +218,7 @@ void RobotTopics::addRangeSensor(const SensorInfo& sensor, const std::string& pa
     addTopic(part, ros::typeOf<ros::LaserScan>(), TopicDelivery::sensor);
     made.robot_from_frame = geometry->robot_from_middle;
     made.is_clockwise = geometry->step_rad < 0;
-    ros::LaserScan& scan = made.scan.emplace();
+    ros::LaserScan scan;
     scan.header.frame_id = made.frame;
     scan.angle_min = static_cast<float>(-geometry->aperture_rad / 2);
     scan.angle_max = static_cast<float>(geometry->aperture_rad / 2);
@@ -136,6 +227,8 @@ void RobotTopics::addRangeSensor(const SensorInfo& sensor, const std::string& pa
     scan.range_min = range_min;
     scan.range_max = range_max;
     scan.ranges.resize(sensor.beams.size());
+    made.scan_size = scan.ranges.size();
+    made.of_topic.push_back(stamped(scan, scan.ranges));
     return;
   }
   for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
@@ -147,10 +240,12 @@ void RobotTopics::addRangeSensor(const SensorInfo& sensor, const std::string& pa
     range.field_of_view = static_cast<float>(sensor.beam_width_rad);
     range.min_range = range_min;
     range.max_range = range_max;
-    made.ranges.push_back(range);
+    made.of_topic.push_back(stamped(range, range.range));
+    made.frames_of_beams.push_back(range.header.frame_id);
     if (!sensor.pans) addMount(range.header.frame_id, sensor.beams[i].robot_from_beam);
   }
   addTopic(part + "/points", ros::typeOf<ros::PointCloud2>(), TopicDelivery::sensor);
+  made.of_topic.push_back(cloudTemplate(base_frame_));
 }
 
 void RobotTopics::addSensor(const SensorInfo& sensor) {
@@ -167,22 +262,25 @@ void RobotTopics::addSensor(const SensorInfo& sensor) {
       break;
     case SensorKind::heat:
       addTopic(part, ros::typeOf<ros::Temperature>(), TopicDelivery::sensor);
+      made.of_topic.push_back(temperatureTemplate(made.frame));
       break;
     case SensorKind::bumper:
       addTopic(part, ros::typeOf<ros::UInt8MultiArray>(), TopicDelivery::sensor);
       break;
     case SensorKind::odometry:
       addTopic(part, ros::typeOf<ros::Odometry>(), TopicDelivery::steady);
+      made.of_topic.push_back(odometryTemplate(odom_frame_, base_frame_));
       break;
     case SensorKind::compass:
       addTopic(part, ros::typeOf<ros::Imu>(), TopicDelivery::sensor);
+      made.of_topic.push_back(compassTemplate(base_frame_));
       break;
     case SensorKind::camera: {
       addTopic(part + "/image_raw/compressed", ros::typeOf<ros::CompressedImage>(), TopicDelivery::sensor);
       addTopic(part + "/camera_info", ros::typeOf<ros::CameraInfo>(), TopicDelivery::sensor);
       made.frame += "_optical";
-      made.camera = infoOf(sensor.camera);
-      made.camera.header.frame_id = made.frame;
+      made.of_topic.push_back(pictureTemplate(made.frame));
+      made.of_topic.push_back(cameraTemplate(sensor.camera, made.frame));
       addMount(made.frame, made.robot_from_frame);
       auto& rotation = mounts_.back().transform.rotation;
       rotation = product(rotation, kOpticalRotation);
@@ -190,6 +288,7 @@ void RobotTopics::addSensor(const SensorInfo& sensor) {
     }
     case SensorKind::battery:
       addTopic(part, ros::typeOf<ros::BatteryState>(), TopicDelivery::steady);
+      made.of_topic.push_back(batteryTemplate(base_frame_));
       break;
     case SensorKind::blob_finder:
     case SensorKind::beacons:
@@ -199,18 +298,19 @@ void RobotTopics::addSensor(const SensorInfo& sensor) {
     case SensorKind::unknown:
       break;
   }
-  const bool has_frame = made.scan || sensor.kind == SensorKind::heat;
+  const bool has_frame = made.scan_size > 0 || sensor.kind == SensorKind::heat;
   if (has_frame && !sensor.pans) addMount(made.frame, made.robot_from_frame);
   of_sensor_.push_back(std::move(made));
 }
 
 /// Encodes the measurements of a step; an overload for each kind.
 struct RobotTopics::Encoder {
-  const RobotTopics& robot;
+  RobotTopics& robot;
   TopicSink& sink;
   ros::Time stamp;
   double pan_rad;
-  std::vector<ros::TransformStamped>& transforms;
+  bool has_moved = false;                           ///< there is a transform of a robot that has only one
+  std::vector<ros::TransformStamped> transforms{};  ///< of a robot that has several
   const SensorInfo* sensor = nullptr;
   SensorMessages* made = nullptr;
 
@@ -220,86 +320,76 @@ struct RobotTopics::Encoder {
     ros::encode(message, sink.beginMessage(topic));
     sink.endMessage();
   }
-  ros::Header header(const std::string& frame) const { return {stamp, frame}; }
+  void setStamp(ros::MessageTemplate& message) const {
+    message.set(kSeconds, stamp.sec);
+    message.set(kNanoseconds, stamp.nanosec);
+  }
+  void put(std::size_t topic, ros::MessageTemplate& message) {
+    if (!sink.wants(topic)) return;
+    setStamp(message);
+    sink.put(topic, message.bytes());
+  }
 
   void operator()(const Echoes& echoes) {
-    if (made->scan) {
-      ros::LaserScan& scan = *made->scan;
-      scan.header.stamp = stamp;
-      const std::size_t count = std::min(echoes.size(), scan.ranges.size());
-      for (std::size_t i = 0; i < count; ++i) {
-        scan.ranges[made->is_clockwise ? count - 1 - i : i] = rangeOf(*sensor, echoes[i].range_m);
-      }
-      put(made->topic, scan);
-      if (sensor->pans) addPanned(made->frame, made->robot_from_frame);
-      return;
-    }
-    ros::PointCloud2 cloud;
-    const std::size_t count = std::min(echoes.size(), made->ranges.size());
+    if (made->scan_size > 0) return putScan(echoes);
+    const std::size_t count = std::min(echoes.size(), made->frames_of_beams.size());
+    auto& points = robot.points_;
+    points.clear();
     for (std::size_t i = 0; i < count; ++i) {
-      ros::Range& range = made->ranges[i];
-      range.header.stamp = stamp;
-      range.range = rangeOf(*sensor, echoes[i].range_m);
-      put(made->topic + i, range);
-      if (sensor->pans) addPanned(range.header.frame_id, sensor->beams[i].robot_from_beam);
-      if (range.range == kInfinite) continue;
+      const float range_m = rangeOf(*sensor, echoes[i].range_m);
+      made->of_topic[i].set(kFirst, range_m);
+      put(made->topic + i, made->of_topic[i]);
+      if (sensor->pans) addPanned(made->frames_of_beams[i], sensor->beams[i].robot_from_beam);
+      if (range_m == kInfinite) continue;
       const auto& point = echoes[i].point_m;
-      const float xyz[3] = {point.x, point.y, point.z};
-      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(xyz);
-      cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof xyz);
+      points.insert(points.end(), {point.x, point.y, point.z});
     }
-    cloud.header = header(robot.base_frame_);
-    cloud.height = 1;
-    cloud.point_step = 12;
-    cloud.row_step = static_cast<std::uint32_t>(cloud.data.size());
-    cloud.width = cloud.row_step / cloud.point_step;
-    cloud.fields = {{"x", 0, ros::PointField::kFloat32, 1},
-                    {"y", 4, ros::PointField::kFloat32, 1},
-                    {"z", 8, ros::PointField::kFloat32, 1}};
-    cloud.is_dense = true;
-    put(made->topic + count, cloud);
+    putPoints(made->topic + count, made->of_topic.back(), std::span(points));
   }
   void operator()(const Scalar& scalar) {
+    if (made->of_topic.empty()) return;
+    ros::MessageTemplate& message = made->of_topic[0];
     if (sensor->kind == SensorKind::heat) {
-      put(made->topic, ros::Temperature{header(made->frame), scalar.value, 0});
+      message.set(kFirst, scalar.value);
     } else if (sensor->kind == SensorKind::battery) {
-      ros::BatteryState battery;
-      battery.header = header(robot.base_frame_);
-      battery.voltage = static_cast<float>(scalar.value);
-      for (float* unmeasured : {&battery.temperature, &battery.current, &battery.charge, &battery.capacity,
-                                &battery.design_capacity, &battery.percentage}) {
-        *unmeasured = kNotMeasured;
-      }
-      battery.present = true;
-      put(made->topic, battery);
-    } else if (sensor->kind == SensorKind::compass) {
-      ros::Imu imu;
-      imu.header = header(robot.base_frame_);
-      imu.orientation = rotationOf(scalar.value, 0, 0);
-      imu.angular_velocity_covariance[0] = imu.linear_acceleration_covariance[0] = -1;
-      put(made->topic, imu);
+      message.set(kFirst, static_cast<float>(scalar.value));
+    } else {
+      const ros::Quaternion rotation = rotationOf(scalar.value, 0, 0);
+      message.set(kFirst, rotation.z);
+      message.set(kFirst + 1, rotation.w);
     }
+    put(made->topic, message);
   }
   void operator()(const Contacts& contacts) {
-    put(made->topic, ros::UInt8MultiArray{layoutOf("segment", contacts.pressed.size()), contacts.pressed});
+    putArray(std::span(contacts.pressed), [&] {
+      return ros::UInt8MultiArray{layoutOf("segment", contacts.pressed.size()), contacts.pressed};
+    });
   }
   void operator()(const Odometry& measured) {
     const TPose2D& pose = measured.odom_from_robot;
-    ros::Odometry odometry;
-    odometry.header = header(robot.odom_frame_);
-    odometry.child_frame_id = robot.base_frame_;
-    odometry.pose.pose = poseOf(pose);
-    odometry.twist.twist.linear.x = measured.speed_mps;
-    odometry.twist.twist.angular.z = measured.turn_radps;
-    put(made->topic, odometry);
-    transforms.push_back(transformOf(robot.odom_frame_, robot.base_frame_, {pose.x, pose.y, 0, pose.phi, 0, 0}, stamp));
+    ros::MessageTemplate& message = made->of_topic[0];
+    setPose(message, pose);
+    message.set(kSpeed, measured.speed_mps);
+    message.set(kTurn, measured.turn_radps);
+    put(made->topic, message);
+    if (robot.has_one_transform_) {
+      setPose(robot.transform_message_, pose);
+      has_moved = true;
+    } else {
+      transforms.push_back(
+          transformOf(robot.odom_frame_, robot.base_frame_, {pose.x, pose.y, 0, pose.phi, 0, 0}, stamp));
+    }
   }
   void operator()(const Image& image) {
     if (sink.wants(made->topic)) {
-      put(made->topic, ros::CompressedImage{header(made->frame), "jpeg", {image.jpeg.begin(), image.jpeg.end()}});
+      setStamp(made->of_topic[0]);
+      const auto beginning = made->of_topic[0].bytes();
+      auto& bytes = sink.beginMessage(made->topic);
+      bytes.insert(bytes.end(), beginning.begin(), beginning.end() - sizeof(std::uint32_t));
+      appendSized(bytes, std::as_bytes(std::span(image.jpeg)));
+      sink.endMessage();
     }
-    made->camera.header.stamp = stamp;
-    put(made->topic + 1, made->camera);
+    put(made->topic + 1, made->of_topic[1]);
   }
   void operator()(const Blobs& blobs) {
     constexpr std::uint32_t kNumbers = 7;
@@ -312,21 +402,70 @@ struct RobotTopics::Encoder {
     put(made->topic, array);
   }
   void operator()(const BeaconRanges& beacons) {
-    ros::Float64MultiArray array{layoutOf("range [m]", beacons.range_m.size()), {}};
+    auto& numbers = robot.numbers_;
+    numbers.clear();
     for (const float range_m : beacons.range_m) {
-      array.data.push_back(range_m >= static_cast<float>(sensor->no_echo_m) ? kInfinite : range_m);
+      numbers.push_back(range_m >= static_cast<float>(sensor->no_echo_m) ? kInfinite : range_m);
     }
-    put(made->topic, array);
+    putArray(std::span<const double>(numbers), [&] {
+      return ros::Float64MultiArray{layoutOf("range [m]", numbers.size()), numbers};
+    });
   }
   void operator()(const Values& values) {
     if (sensor->kind == SensorKind::unknown) return;
-    const std::string names = joined(sensor->quantities, [](const Quantity& quantity) {
-      return quantity.unit.empty() ? quantity.name : quantity.name + " [" + quantity.unit + "]";
+    putArray(std::span(values.values), [&] {
+      const std::string names = joined(sensor->quantities, [](const Quantity& quantity) {
+        return quantity.unit.empty() ? quantity.name : quantity.name + " [" + quantity.unit + "]";
+      });
+      return ros::Float64MultiArray{layoutOf(names, values.values.size()), values.values};
     });
-    put(made->topic, ros::Float64MultiArray{layoutOf(names, values.values.size()), values.values});
   }
 
  private:
+  void putScan(const Echoes& echoes) {
+    ros::MessageTemplate& message = made->of_topic[0];
+    const std::size_t count = std::min(echoes.size(), made->scan_size);
+    for (std::size_t i = 0; i < count; ++i) {
+      message.set(kFirst, rangeOf(*sensor, echoes[i].range_m), made->is_clockwise ? count - 1 - i : i);
+    }
+    put(made->topic, message);
+    if (sensor->pans) addPanned(made->frame, made->robot_from_frame);
+  }
+
+  void putPoints(std::size_t topic, ros::MessageTemplate& cloud, std::span<const float> xyz) {
+    if (!sink.wants(topic)) return;
+    setStamp(cloud);
+    cloud.set(kFirst, static_cast<std::uint32_t>(xyz.size() / 3));
+    cloud.set(kFirst + 1, static_cast<std::uint32_t>(xyz.size_bytes()));
+    auto& bytes = sink.beginMessage(topic);
+    const auto all = cloud.bytes();  // up to the points' bytes, and is_dense
+    bytes.insert(bytes.end(), all.begin(), all.end() - sizeof(std::uint32_t) - 1);
+    appendSized(bytes, std::as_bytes(xyz));
+    bytes.push_back(all.back());
+    sink.endMessage();
+  }
+
+  /// @param make the message, when the number of values is another one than before
+  template <typename T, typename Make>
+  void putArray(std::span<T> values, const Make& make) {
+    if (made->of_topic.empty() || made->size != values.size()) {
+      const auto message = make();
+      made->of_topic.assign(1, ros::MessageTemplate(message, message.data));
+      made->size = values.size();
+    }
+    made->of_topic[0].set(0, std::span<const T>(values));
+    if (sink.wants(made->topic)) sink.put(made->topic, made->of_topic[0].bytes());
+  }
+
+  /// Appends a sequence of bytes, which begins at a multiple of four.
+  static void appendSized(std::vector<std::uint8_t>& bytes, std::span<const std::byte> data) {
+    const auto size = static_cast<std::uint32_t>(data.size());
+    const auto* const digits = reinterpret_cast<const std::uint8_t*>(&size);
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(data.data());
+    bytes.insert(bytes.end(), digits, digits + sizeof size);
+    bytes.insert(bytes.end(), first, first + data.size());
+  }
+
   void addPanned(const std::string& frame, const TPose3D& robot_from_frame) {
     transforms.push_back(transformOf(robot.base_frame_, frame, panned(robot_from_frame, pan_rad), stamp));
   }
@@ -334,9 +473,7 @@ struct RobotTopics::Encoder {
 
 void RobotTopics::write(const Readings& readings, const std::optional<TPose2D>& world_from_robot,
                         const std::optional<Command>& command, std::span<const std::uint8_t> kept, TopicSink& sink) {
-  ros::TFMessage transforms;
-  Encoder encoder{*this, sink, timeOf(nanosecondsOf(readings.time.seconds())), readings.laser_pan_rad,
-                  transforms.transforms};
+  Encoder encoder{*this, sink, timeOf(nanosecondsOf(readings.time.seconds())), readings.laser_pan_rad};
   for (std::size_t i = 0; i < readings.measurements.size(); ++i) {
     if (i < kept.size() && kept[i]) continue;
     const Measurement& measurement = readings.measurements[i];
@@ -346,23 +483,20 @@ void RobotTopics::write(const Readings& readings, const std::optional<TPose2D>& 
     std::visit(encoder, measurement);
   }
   if (world_from_robot) {
-    ros::Odometry truth;
-    truth.header = encoder.header("map");
-    truth.child_frame_id = base_frame_;
-    truth.pose.pose = poseOf(*world_from_robot);
-    encoder.put(truth_, truth);
+    setPose(truth_message_, *world_from_robot);
+    encoder.put(truth_, truth_message_);
   }
-  if (command) {
-    ros::Twist twist;
-    twist.linear.x = command->speed_mps;
-    twist.angular.z = command->turn_radps;
-    encoder.put(command_, twist);
+  if (command && sink.wants(command_)) {
+    command_message_.set(0, double{command->speed_mps});
+    command_message_.set(1, double{command->turn_radps});
+    sink.put(command_, command_message_.bytes());
   }
   for (const auto& message : readings.inbox) {
     const nlohmann::ordered_json json{{"from", message.from}, {"text", message.text}};
     encoder.put(inbox_, ros::String{json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
   }
-  if (!transforms.transforms.empty()) encoder.put(transform_, transforms);
+  if (encoder.has_moved) encoder.put(transform_, transform_message_);
+  if (!encoder.transforms.empty()) encoder.put(transform_, ros::TFMessage{std::move(encoder.transforms)});
 }
 
 }  // namespace robosim

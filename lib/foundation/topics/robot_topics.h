@@ -12,6 +12,7 @@
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
+#include "ros/message_template.h"
 #include "topics/topic.h"
 
 namespace robosim {
@@ -26,6 +27,12 @@ class TopicSink {
   virtual std::vector<std::uint8_t>& beginMessage(std::size_t topic) = 0;
   /// The message is complete.
   virtual void endMessage() = 0;
+  /// A message whose bytes are at hand.
+  virtual void put(std::size_t topic, std::span<const std::uint8_t> message) {
+    auto& bytes = beginMessage(topic);
+    bytes.insert(bytes.end(), message.begin(), message.end());
+    endMessage();
+  }
 };
 
 /// The topics of a robot, below "/<robot>/", and their messages of a step (doc/ros2.md). Frames are "<robot>/odom",
@@ -46,15 +53,16 @@ class RobotTopics {
              const std::optional<Command>& command, std::span<const std::uint8_t> kept, TopicSink& sink);
 
  private:
-  /// What is constant in the messages of a sensor.
+  /// The messages of a sensor.
   struct SensorMessages {
     std::size_t topic = 0;  ///< the first one
     std::string frame;
     mrpt::math::TPose3D robot_from_frame;
-    bool is_clockwise = false;           ///< order of the readings
-    std::optional<ros::LaserScan> scan;  ///< of range sensors, or the following
-    std::vector<ros::Range> ranges;      ///< one for each beam
-    ros::CameraInfo camera;
+    bool is_clockwise = false;                   ///< order of the readings
+    std::size_t scan_size = 0;                   ///< number of ranges of a LaserScan; 0 for separate ranges
+    std::vector<ros::MessageTemplate> of_topic;  ///< empty before the first one of a sensor with any number of values
+    std::size_t size = 0;                        ///< number of values in that message
+    std::vector<std::string> frames_of_beams;    ///< of sensors with separate ranges
   };
   struct Encoder;
 
@@ -69,6 +77,10 @@ class RobotTopics {
   std::vector<ros::TransformStamped> mounts_;
   std::vector<SensorMessages> of_sensor_;
   std::size_t transform_ = 0, truth_ = 0, command_ = 0, inbox_ = 0;
+  bool has_one_transform_ = false;  ///< that of the odometry: no sensor pans
+  ros::MessageTemplate truth_message_, command_message_, transform_message_;
+  std::vector<float> points_;    ///< x, y, z of a step; reused
+  std::vector<double> numbers_;  ///< reused
 };
 
 /// The message of /tf_static: poses of the sensors of robots. Without transforms if there are none.
