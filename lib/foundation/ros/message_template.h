@@ -17,7 +17,12 @@ class MessageTemplate {
   template <Message M, typename... Fields>
   explicit MessageTemplate(const M& message, const Fields&... changing) {
     encode(message, bytes_);
-    (positions_.push_back(positionOf(message, changing)), ...);
+    (add(message, changing), ...);
+  }
+  /// Adds a changing field. @param message the one of the constructor
+  template <Message M, typename Field>
+  void add(const M& message, const Field& field) {
+    positions_.push_back(positionOf(message, field));
   }
 
   bool empty() const { return bytes_.empty(); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -89,14 +90,6 @@ ros::MessageTemplate odometryTemplate(const std::string& parent, const std::stri
   const auto& [position, orientation] = message.pose.pose;
   const auto& [linear, angular] = message.twist.twist;
   return stamped(message, position.x, position.y, orientation.z, orientation.w, linear.x, angular.z);
-}
-
-/// Has the fields of odometryTemplate() up to the rotation.
-ros::MessageTemplate transformTemplate(const std::string& parent, const std::string& child) {
-  const ros::TFMessage message{{transformOf(parent, child, {})}};
-  const auto& [header, child_frame, transform] = message.transforms[0];
-  return ros::MessageTemplate(message, header.stamp.sec, header.stamp.nanosec, transform.translation.x,
-                              transform.translation.y, transform.rotation.z, transform.rotation.w);
 }
 
 void setPose(ros::MessageTemplate& message, const TPose2D& pose) {
@@ -194,12 +187,7 @@ RobotTopics::RobotTopics(const RobotInfo& robot)
   const ros::Twist command;
   command_message_ = ros::MessageTemplate(command, command.linear.x, command.angular.z);
   inbox_ = addTopic("messages", ros::typeOf<ros::String>(), TopicDelivery::steady);
-  transform_message_ = transformTemplate(odom_frame_, base_frame_);
   for (const auto& sensor : *sensors_) addSensor(sensor);
-  const auto odometries =
-      std::count_if(sensors_->begin(), sensors_->end(), [](const auto& s) { return s.kind == SensorKind::odometry; });
-  has_one_transform_ =
-      odometries == 1 && std::none_of(sensors_->begin(), sensors_->end(), [](const auto& s) { return s.pans; });
 }
 
 std::size_t RobotTopics::addTopic(const std::string& name, const ros::MessageType& type, TopicDelivery delivery) {
@@ -309,8 +297,6 @@ struct RobotTopics::Encoder {
   TopicSink& sink;
   ros::Time stamp;
   double pan_rad;
-  bool has_moved = false;                           ///< there is a transform of a robot that has only one
-  std::vector<ros::TransformStamped> transforms{};  ///< of a robot that has several
   const SensorInfo* sensor = nullptr;
   SensorMessages* made = nullptr;
 
@@ -339,7 +325,7 @@ struct RobotTopics::Encoder {
       const float range_m = rangeOf(*sensor, echoes[i].range_m);
       made->of_topic[i].set(kFirst, range_m);
       put(made->topic + i, made->of_topic[i]);
-      if (sensor->pans) addPanned(made->frames_of_beams[i], sensor->beams[i].robot_from_beam);
+      if (sensor->pans) addMoved(i, panned(sensor->beams[i].robot_from_beam, pan_rad));
       if (range_m == kInfinite) continue;
       const auto& point = echoes[i].point_m;
       points.insert(points.end(), {point.x, point.y, point.z});
@@ -372,13 +358,7 @@ struct RobotTopics::Encoder {
     message.set(kSpeed, measured.speed_mps);
     message.set(kTurn, measured.turn_radps);
     put(made->topic, message);
-    if (robot.has_one_transform_) {
-      setPose(robot.transform_message_, pose);
-      has_moved = true;
-    } else {
-      transforms.push_back(
-          transformOf(robot.odom_frame_, robot.base_frame_, {pose.x, pose.y, 0, pose.phi, 0, 0}, stamp));
-    }
+    addMoved(0, {pose.x, pose.y, 0, pose.phi, 0, 0});
   }
   void operator()(const Image& image) {
     if (sink.wants(made->topic)) {
@@ -429,7 +409,7 @@ struct RobotTopics::Encoder {
       message.set(kFirst, rangeOf(*sensor, echoes[i].range_m), made->is_clockwise ? count - 1 - i : i);
     }
     put(made->topic, message);
-    if (sensor->pans) addPanned(made->frame, made->robot_from_frame);
+    if (sensor->pans) addMoved(0, panned(made->robot_from_frame, pan_rad));
   }
 
   void putPoints(std::size_t topic, ros::MessageTemplate& cloud, std::span<const float> xyz) {
@@ -466,13 +446,40 @@ struct RobotTopics::Encoder {
     bytes.insert(bytes.end(), first, first + data.size());
   }
 
-  void addPanned(const std::string& frame, const TPose3D& robot_from_frame) {
-    transforms.push_back(transformOf(robot.base_frame_, frame, panned(robot_from_frame, pan_rad), stamp));
+  void addMoved(std::size_t beam, const TPose3D& pose) {
+    const ros::Quaternion rotation = rotationOf(pose.yaw, pose.pitch, pose.roll);
+    robot.moved_.push_back({static_cast<std::size_t>(made - robot.of_sensor_.data()),
+                            beam,
+                            {pose.x, pose.y, pose.z, rotation.x, rotation.y, rotation.z, rotation.w}});
   }
 };
 
+/// Makes the template of /tf with the frames that have moved, unless it is the one.
+void RobotTopics::makeTransformMessage() {
+  const auto same = [](const MovedFrame& a, const MovedFrame& b) { return a.sensor == b.sensor && a.beam == b.beam; };
+  if (std::equal(moved_.begin(), moved_.end(), in_transform_message_.begin(), in_transform_message_.end(), same))
+    return;
+  in_transform_message_ = moved_;
+  ros::TFMessage message;
+  for (const auto& frame : moved_) {
+    const SensorMessages& of = of_sensor_[frame.sensor];
+    const bool is_odometry = (*sensors_)[frame.sensor].kind == SensorKind::odometry;
+    message.transforms.push_back(is_odometry ? transformOf(odom_frame_, base_frame_, {})
+                                 : of.frames_of_beams.empty()
+                                     ? transformOf(base_frame_, of.frame, {})
+                                     : transformOf(base_frame_, of.frames_of_beams[frame.beam], {}));
+  }
+  transform_message_ = ros::MessageTemplate(message);
+  for (const auto& [header, child, transform] : message.transforms) {
+    transform_message_.add(message, header.stamp.sec);
+    transform_message_.add(message, header.stamp.nanosec);
+    transform_message_.add(message, transform.translation.x);
+  }
+}
+
 void RobotTopics::write(const Readings& readings, const std::optional<TPose2D>& world_from_robot,
                         const std::optional<Command>& command, std::span<const std::uint8_t> kept, TopicSink& sink) {
+  moved_.clear();
   Encoder encoder{*this, sink, timeOf(nanosecondsOf(readings.time.seconds())), readings.laser_pan_rad};
   for (std::size_t i = 0; i < readings.measurements.size(); ++i) {
     if (i < kept.size() && kept[i]) continue;
@@ -495,8 +502,14 @@ void RobotTopics::write(const Readings& readings, const std::optional<TPose2D>& 
     const nlohmann::ordered_json json{{"from", message.from}, {"text", message.text}};
     encoder.put(inbox_, ros::String{json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
   }
-  if (encoder.has_moved) encoder.put(transform_, transform_message_);
-  if (!encoder.transforms.empty()) encoder.put(transform_, ros::TFMessage{std::move(encoder.transforms)});
+  if (moved_.empty() || !sink.wants(transform_)) return;
+  makeTransformMessage();
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    transform_message_.set(3 * i, encoder.stamp.sec);
+    transform_message_.set(3 * i + 1, encoder.stamp.nanosec);
+    transform_message_.set(3 * i + 2, std::span<const double>(moved_[i].pose));
+  }
+  sink.put(transform_, transform_message_.bytes());
 }
 
 }  // namespace robosim

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -64,12 +65,18 @@ class RobotTopics {
     std::size_t size = 0;                        ///< number of values in that message
     std::vector<std::string> frames_of_beams;    ///< of sensors with separate ranges
   };
+  /// The changing transform of a sensor's frame, or of a beam's; of the odometry, that of the robot's frame.
+  struct MovedFrame {
+    std::size_t sensor = 0, beam = 0;
+    std::array<double, 7> pose{};  ///< x, y, z and the rotation's x, y, z, w
+  };
   struct Encoder;
 
   std::size_t addTopic(const std::string& name, const ros::MessageType& type, TopicDelivery delivery);
   void addSensor(const SensorInfo& sensor);
   void addRangeSensor(const SensorInfo& sensor, const std::string& part, SensorMessages& made);
   void addMount(const std::string& frame, const mrpt::math::TPose3D& pose);
+  void makeTransformMessage();
 
   std::string name_, base_frame_, odom_frame_;
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
@@ -77,8 +84,8 @@ class RobotTopics {
   std::vector<ros::TransformStamped> mounts_;
   std::vector<SensorMessages> of_sensor_;
   std::size_t transform_ = 0, truth_ = 0, command_ = 0, inbox_ = 0;
-  bool has_one_transform_ = false;  ///< that of the odometry: no sensor pans
   ros::MessageTemplate truth_message_, command_message_, transform_message_;
+  std::vector<MovedFrame> moved_, in_transform_message_;
   std::vector<float> points_;    ///< x, y, z of a step; reused
   std::vector<double> numbers_;  ///< reused
 };

@@ -95,14 +95,14 @@ std::optional<AddRobot> robotAddedBy(const std::string& text) {
   return robot ? std::optional(*robot) : std::nullopt;
 }
 
-std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now) {
-  if (recorded.isSameList(now) || !now.areChanged()) return {};
-  const std::vector<WorldObject> none;
-  const auto& objects = now.orThose(none);
-  const auto moved = movedBetween(recorded.orThose(none), objects);
-  if (!moved) return noteOfAll(now);
+std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now,
+                      const std::optional<std::vector<std::uint32_t>>& moved) {
+  if (!now.areChanged()) return {};
+  if (!moved || !recorded.areChanged()) return noteOfAll(now);
   if (moved->empty()) return {};
   nlohmann::ordered_json json{{"robosim_moved", 1}, {"places", nlohmann::ordered_json::array()}};
+  const std::vector<WorldObject> none;
+  const auto& objects = now.orThose(none);
   for (const auto i : *moved) {
     const auto& pose = objects[i].body.world_from_body;
     json["places"].push_back({i, pose.x, pose.y, pose.phi});

@@ -6,12 +6,17 @@
 
 #include "recording/recording_error.h"
 #include "run/outputs/intervention_note.h"
+#include "world/changed_objects.h"
 
 namespace robosim {
 
 RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note,
                            std::shared_ptr<const Model> model)
-    : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)), topics_(std::move(model)) {}
+    : options_(std::move(options)),
+      robots_(std::move(robots)),
+      note_(std::move(note)),
+      model_(std::move(model)),
+      topics_(model_) {}
 
 void RunRecording::follow(const Fleet& fleet) {
   for (std::size_t i = robots_.size(); i < fleet.robots.size(); ++i) robots_.push_back(fleet.robots[i].info);
@@ -35,6 +40,7 @@ void RunRecording::openNext(const State& state) {
 void RunRecording::open(const std::filesystem::path& file, const SimTime& start, const ChangedObjects& objects) {
   failure_.clear();
   is_new_part_ = true;
+  objects_ = objects;
   note_.outcome = nullptr;
   note_.first_step = start.step;
   writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
@@ -49,12 +55,19 @@ void RunRecording::write(const State& state) {
   if (!writer_ || last_step_ == state.time.step) return;
   try {
     std::vector<std::string> notes = notesBefore(state, state.time.step, is_new_part_);
+    // The objects are compared once, for both kinds of recording.
+    const bool notes_moves = !is_new_part_ && !state.object_speeds.empty();
+    const bool are_new = !state.objects.isSameList(objects_) && (writer_->isMcap() || notes_moves);
+    const auto& of_world = model_->world.objects;
+    const auto moves =
+        are_new ? movedBetween(objects_.orThose(of_world), state.objects.orThose(of_world)) : std::nullopt;
     std::vector<TopicMessage> messages;
     if (writer_->isMcap()) {
       const std::string winner = state.winner() ? robots_[*state.winner()].name : "";
-      messages = topics_.of(state.objects, notes, winner, nanosecondsOf(state.time.seconds()));
+      const std::uint64_t time_ns = nanosecondsOf(state.time.seconds());
+      messages = topics_.of(state.objects, are_new ? &moves : nullptr, notes, winner, time_ns);
     }
-    const std::string moved = is_new_part_ || state.object_speeds.empty() ? "" : movedNote(objects_, state.objects);
+    const std::string moved = are_new && notes_moves ? movedNote(objects_, state.objects, moves) : "";
     if (!moved.empty()) notes.push_back(moved);
     for (; recorded_robots_ < robots_.size(); ++recorded_robots_) writer_->addRobot(robots_[recorded_robots_]);
     writer_->write(state.readings, state.world_from_robot, state.commands, notes, messages);

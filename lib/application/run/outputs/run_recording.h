@@ -72,7 +72,8 @@ class RunRecording {
   bool is_requested_ = false;             ///< the current or last part is of openNext()
   bool is_new_part_ = false;              ///< no step of the part has been written
   ChangedObjects objects_;                ///< of the step recorded last
-  WorldTopics topics_;                    ///< of an MCAP file
+  std::shared_ptr<const Model> model_;
+  WorldTopics topics_;  ///< of an MCAP file
   std::string failure_;
   std::optional<std::uint64_t> last_step_;  ///< recorded
   std::filesystem::path file_, previous_file_;

@@ -119,17 +119,25 @@ TopicMessage WorldTopics::objects(const ChangedObjects& objects, std::uint64_t t
 
 std::vector<TopicMessage> WorldTopics::of(const ChangedObjects& objects, const std::vector<std::string>& notes,
                                           const std::string& winner, std::uint64_t time_ns) {
+  if (objects.isSameList(objects_)) return of(objects, nullptr, notes, winner, time_ns);
+  const auto& of_world = model_->world.objects;
+  const auto moved = movedBetween(objects_.orThose(of_world), objects.orThose(of_world));
+  return of(objects, &moved, notes, winner, time_ns);
+}
+
+std::vector<TopicMessage> WorldTopics::of(const ChangedObjects& objects,
+                                          const std::optional<std::vector<std::uint32_t>>* moved,
+                                          const std::vector<std::string>& notes, const std::string& winner,
+                                          std::uint64_t time_ns) {
   std::vector<TopicMessage> messages;
   for (const auto& text : notes) {
     messages.push_back(topicMessage("/interventions", TopicDelivery::steady, time_ns, ros::String{text}));
   }
-  if (!objects.isSameList(objects_)) {
-    const auto& before = objects_.orThose(model_->world.objects);
+  if (moved && (!*moved || !(*moved)->empty())) {
     const auto& now = objects.orThose(model_->world.objects);
-    const auto moved = movedBetween(before, now);
-    if (!moved || !moved->empty()) messages.push_back(markers(now, moved ? &*moved : nullptr, time_ns));
-    objects_ = objects;
+    messages.push_back(markers(now, *moved ? &**moved : nullptr, time_ns));
   }
+  objects_ = objects;
   if (winner != winner_) {
     const nlohmann::ordered_json event{{"event", "won"}, {"robot", winner}};
     messages.push_back(topicMessage("/events", TopicDelivery::steady, time_ns, ros::String{textOf(event)}));

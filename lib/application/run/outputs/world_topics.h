@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,10 @@ class WorldTopics {
   /// Messages of a step. @param notes interventions before it @param winner name of the robot that has won so far
   std::vector<TopicMessage> of(const ChangedObjects& objects, const std::vector<std::string>& notes,
                                const std::string& winner, std::uint64_t time_ns);
+  /// The same, of objects that the caller has compared with those before.
+  /// @param moved what movedBetween() has returned; null when nothing has changed
+  std::vector<TopicMessage> of(const ChangedObjects& objects, const std::optional<std::vector<std::uint32_t>>* moved,
+                               const std::vector<std::string>& notes, const std::string& winner, std::uint64_t time_ns);
   /// Writes the outcome. @param note of the run, with outcome
   static void end(McapRecording& recording, const RunNote& note);
 
