@@ -28,7 +28,9 @@ ReplayResult replay(ReplayArguments arguments) {
   }
   checkObservers(arguments.observers);
   if (!is_repeated && arguments.controller.empty()) {
-    return arguments.print ? printObservations(arguments) : summarise(arguments);
+    return arguments.index   ? printIndex(arguments)
+           : arguments.print ? printObservations(arguments)
+                             : summarise(arguments);
   }
   const RereadableFile rawlog(arguments.rawlog);  // required by both branches, which read it more than once
   arguments.rawlog = rawlog.path().string();
@@ -74,6 +76,10 @@ void addReplay(CLI::App& program) {
                 ->default_str("max"),
             print);
 
+  auto* index = command->add_flag("--index", a->index,
+                                  "print topics, times and the run of an .mcap, which its index says, in place of the "
+                                  "summary, for which the whole recording is read");
+  index->excludes(print)->excludes(robot)->excludes(sensor)->excludes(from)->excludes(to);
   auto* controller = addControllerOption(
       *command, a->controller,
       "feed the recorded readings to this controller, and report where its commands differ from those recorded; "
@@ -101,11 +107,13 @@ void addReplay(CLI::App& program) {
   auto* output = command->add_option("--output", a->output,
                                      "write the selected observations to this rawlog, with embedded pictures");
   output->type_name("FILE")->check(fileName())->excludes(print)->excludes(truth)->excludes(check)->excludes(controller);
+  for (auto* other : {controller, check, truth, output}) index->excludes(other);
   controller->excludes(print)->excludes(sensor)->excludes(from)->excludes(to);
   addObserverOption(*command, a->observers,
                     "repeat the run, check that it is identical, and print the metrics of this observer; in the "
                     "recorded world, or that of --check")
       ->excludes(print)
+      ->excludes(index)
       ->excludes(controller)
       ->excludes(robot)
       ->excludes(sensor)
@@ -120,7 +128,7 @@ void addReplay(CLI::App& program) {
       ->excludes(truth)
       ->excludes(output);
   setGroup(*command, kSelectionGroup, {"--robot", "--sensor", "--from", "--to"});
-  setGroup(*command, "Output", {"--print", "--csv", "--speed", "--ground-truth", "--output", "--json"});
+  setGroup(*command, "Output", {"--index", "--print", "--csv", "--speed", "--ground-truth", "--output", "--json"});
   setGroup(*command, "Repetition", {"--controller", "--tolerance", "--check", "--observer"});
   const std::string examples =
       "Try:  robosim replay run.rawlog --robot Pioneer1 --sensor laser --print --csv > laser.csv\n"

@@ -13,6 +13,7 @@ struct ReplayArguments {
   std::vector<std::string> robots;     ///< selected; empty for all
   std::vector<std::string> sensors;    ///< selected by the second part of the label; empty for all
   std::optional<double> from_s, to_s;  ///< since the recording's first observation
+  bool index = false;  ///< print only what the index of an MCAP file says
   bool print = false;
   bool csv = false;                    ///< print as comma-separated values
   std::string ground_truth;            ///< output file
@@ -42,6 +43,9 @@ inline ReplayResult resultOf(const RawlogReader& reader) {
 
 /// Summarises a recording made by RoboSim or another program.
 ReplayResult summarise(const ReplayArguments&);
+/// Prints topics, times, and what an MCAP file says about the run, of any program, by its index: the messages are not
+/// read. @throws ConfigError for a file without an index
+ReplayResult printIndex(const ReplayArguments&);
 /// Prints the observations, one line each, at the requested speed.
 ReplayResult printObservations(const ReplayArguments&);
 /// Writes a robot's true path as a text file that MRPT's pf-localization and CPose3DInterpolator read: one line "time x
