@@ -229,7 +229,7 @@ void printSize(const fs::path& file, std::uint64_t bytes) {
 }
 
 bool isRecording(const std::string& file) {
-  return fs::is_regular_file(file) && !isMapFile(file) && looksLikeRawlog(file);
+  return fs::is_directory(file) || (fs::is_regular_file(file) && !isMapFile(file) && looksLikeRawlog(file));
 }
 
 /// The outputs of a recording; empty for those of a world. @throws ConfigError

@@ -149,6 +149,7 @@ TEST(Libraries, OfMapsRecordingsPicturesAndSubcommandsWithoutNetworkAreTheseOnly
                                 "opencv_core",
                                 "opencv_imgcodecs",
                                 "opencv_imgproc",
+                                "sqlite3",
                                 "stdc++",
                                 "ubsan",
                                 "yaml-cpp",

@@ -45,6 +45,12 @@ RecordingContents contentsOf(const std::string& rawlog, const std::vector<Record
   RecordingContents read = readRecording(rawlog, parts, [&](std::uint64_t entries) {
     progress.at([&] { return "reading: " + withCommas(entries) + " entries …"; });
   });
+  if (!read.unread.empty()) {
+    const std::size_t count = read.unread.size();
+    logWarning("export", rawlog + ": " + std::to_string(count) + (count == 1 ? " topic is" : " topics are") +
+                             " not read, which robosim replay lists");
+  }
+  for (const auto& assumption : read.assumptions) logWarning("export", assumption);
   if (read.read_error) logWarning("export", *read.read_error);
   return read;
 }

@@ -33,7 +33,7 @@ ReplayResult writeSelection(const ReplayArguments& arguments) {
   selection.checkFound();
   writer.commit();
   std::cout << arguments.output << ": " << withCommas(observations) << " observations\n";
-  if (reader.readError()) logWarning("replay", *reader.readError());
+  warnOf(reader);
   return resultOf(reader);
 }
 

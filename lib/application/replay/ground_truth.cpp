@@ -62,7 +62,7 @@ ReplayResult writeGroundTruth(const ReplayArguments& arguments) {
   file.commit();
   std::cout << arguments.ground_truth << ": " << withCommas(poses) << " poses of " << printableText(*robots.begin())
             << '\n';
-  if (reader.readError()) logWarning("replay", *reader.readError());
+  warnOf(reader);
   return resultOf(reader);
 }
 

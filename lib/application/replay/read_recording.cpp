@@ -36,6 +36,8 @@ RecordingContents readRecording(const std::string& rawlog, const RecordingParts&
   }
   read.read_error = reader.readError();
   read.is_damaged = reader.isDamaged();
+  read.unread = reader.unread();
+  read.assumptions = reader.assumptions();
   return read;
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "replay/recording_figure.h"
 #include "replay/recording_table.h"
@@ -17,10 +18,11 @@ struct RecordingParts {
 
 /// The observations of a recording in memory.
 struct RecordingContents {
-  std::optional<RecordingTable> table;    ///< as RecordingParts::table
-  std::optional<RecordingFigure> figure;  ///< as RecordingParts::figure
-  std::optional<std::string> read_error;  ///< RawlogReader::readError()
-  bool is_damaged = false;                ///< RawlogReader::isDamaged()
+  std::optional<RecordingTable> table;           ///< as RecordingParts::table
+  std::optional<RecordingFigure> figure;         ///< as RecordingParts::figure
+  std::optional<std::string> read_error;         ///< RawlogReader::readError()
+  bool is_damaged = false;                       ///< RawlogReader::isDamaged()
+  std::vector<std::string> unread, assumptions;  ///< as of RawlogReader
 };
 
 /// Reads a recording made by RoboSim or another program.

@@ -122,6 +122,10 @@ nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& a
                               {"whole", !reader.readError()},
                               {"trouble", reader.readError().value_or("")},
                               {"left_out", reader.skippedEntries()}};
+  if (reader.isOfRos()) {
+    json["not_read"] = reader.unread();
+    json["assumed"] = reader.assumptions();
+  }
   for (const auto& [source, channel] : contents.channels) {
     const auto& [label, class_name] = source;
     json["channels"].push_back(
@@ -190,6 +194,8 @@ void print(const Contents& contents, const ReplayArguments& arguments, const Raw
   if (reader.skippedEntries() > 0) {
     std::cout << withCommas(reader.skippedEntries()) << " entries are neither observation nor action; omitted.\n";
   }
+  for (const auto& topic : reader.unread()) std::cout << "not read: " << printableText(topic) << '\n';
+  for (const auto& assumption : reader.assumptions()) std::cout << printableText(assumption) << '\n';
   if (reader.readError()) std::cout << printableText(*reader.readError()) << '\n';
 }
 
@@ -249,7 +255,7 @@ ReplayResult printObservations(const ReplayArguments& arguments) {
               << inWords(*observation, sensor) << '\n';
     if (speed > 0) std::cout.flush();
   }
-  if (reader.readError()) logWarning("replay", *reader.readError());
+  warnOf(reader);
   if (!interrupt.isRequested()) selection.checkFound();
   return resultOf(reader);
 }

@@ -38,6 +38,9 @@ inline ReplayResult resultOf(const RawlogReader& reader) {
   return reader.isDamaged() ? ReplayResult::damaged : ReplayResult::complete;
 }
 
+/// Prints what was not read of a recording as warnings.
+void warnOf(const RawlogReader& reader);
+
 /// Thrown when a replay is interrupted.
 [[noreturn]] void failInterrupted(double read_s);
 

@@ -2,6 +2,7 @@
 
 #include "base/error_list.h"
 #include "base/interrupt.h"
+#include "base/log.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
 
@@ -28,6 +29,11 @@ bool ReplayArguments::selects(const std::string& robot, const std::string& senso
     return list.empty() || std::find(list.begin(), list.end(), what) != list.end();
   };
   return holds(robots, robot) && holds(sensors, sensor);
+}
+
+void warnOf(const RawlogReader& reader) {
+  for (const auto& assumption : reader.assumptions()) logWarning("replay", assumption);
+  if (reader.readError()) logWarning("replay", *reader.readError());
 }
 
 void failInterrupted(double read_s) {

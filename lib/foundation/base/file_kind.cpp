@@ -116,7 +116,9 @@ constexpr std::array kDescriptions{
                 "a world refers to it, as in <map file=\"plan.png\" resolution=\"0.05\"/>"},
     Description{FileKind::activmedia, "a map (.map)", "robosim run, serve, check, view, export and arcos take it"},
     Description{FileKind::rawlog, "a rawlog, a recording", "robosim replay, view, export and fit take it"},
-    Description{FileKind::mcap, "an MCAP recording", "robosim replay, view, export and fit take those of RoboSim"},
+    Description{FileKind::mcap, "an MCAP recording", "robosim replay, view, export and fit take it"},
+    Description{FileKind::sqlite, "an SQLite database, such as a bag of ROS 2",
+                "robosim replay, view, export and fit take those of rosbag2"},
     Description{FileKind::bmp, "a picture in the format BMP", "convert it to .png, which a world can have as its map"},
     Description{FileKind::jpeg, "a picture in the format JPEG",
                 "convert it to .png, which a world can have as its map"},
@@ -130,9 +132,8 @@ constexpr std::array kDescriptions{
                 "no command reads it; MRPT's simplemap2rawlog or its grid map can be read"},
     Description{FileKind::scene_3d, "a 3D scene of MRPT", "no command reads it; MRPT's SceneViewer3D does"},
     Description{FileKind::rosbag, "a bag of ROS 1",
-                "convert it by MRPT's rosbag2rawlog; robosim replay takes the result"},
-    Description{FileKind::sqlite, "an SQLite database, such as a bag of ROS 2",
-                "no command reads it; robosim replay takes rawlogs"},
+                "convert it by rosbags-convert (pip install rosbags), or by MRPT's rosbag2rawlog; robosim replay takes "
+                "the result"},
     Description{FileKind::zip, "a ZIP archive, such as an .npz", "no command reads it"},
     Description{FileKind::pdf, "a PDF document", "no command reads it"},
 };

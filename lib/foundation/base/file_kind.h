@@ -20,6 +20,7 @@ enum class FileKind {
   activmedia,  ///< 2D-Map
   rawlog,      ///< MRPT's
   mcap,
+  sqlite,  ///< of rosbag2
   // Of other programs:
   bmp,
   jpeg,
@@ -29,7 +30,6 @@ enum class FileKind {
   simple_map,
   scene_3d,
   rosbag,
-  sqlite,
   zip,
   pdf,
 };
@@ -38,7 +38,7 @@ enum class FileKind {
 ///@{
 inline const std::vector<FileKind> kWorldKinds{FileKind::world, FileKind::gridmap, FileKind::ros_yaml,
                                                FileKind::picture, FileKind::activmedia};
-inline const std::vector<FileKind> kRecordingKinds{FileKind::rawlog, FileKind::mcap};
+inline const std::vector<FileKind> kRecordingKinds{FileKind::rawlog, FileKind::mcap, FileKind::sqlite};
 ///@}
 
 /// Kind of a file with these first bytes, decompressed; a few kilobytes suffice.

@@ -34,6 +34,7 @@ void writeAll(int descriptor, const char* bytes, std::size_t size) {
 }  // namespace
 
 RereadableFile::RereadableFile(const std::filesystem::path& file) : path_(file) {
+  if (std::filesystem::is_directory(file)) return;
   InputFile in(file);
   if (in.size()) return;
   copy_ = openUnnamed();

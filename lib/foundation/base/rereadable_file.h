@@ -3,7 +3,8 @@
 
 namespace robosim {
 
-/// A file that can be read several times and at any position: the file itself, or a temporary copy of a pipe's content.
+/// A file that can be read several times and at any position: the file itself (also a folder), or a temporary copy of a
+/// pipe's content.
 /// The copy has no directory entry, so that it is deleted with the process.
 class RereadableFile {
  public:

@@ -1,6 +1,7 @@
 #include "mcap/reader.h"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
 #include "mcap/compression.h"
@@ -13,6 +14,10 @@ namespace {
 constexpr std::size_t kChunkBeginning = 8 + 8 + 8 + 4 + 4 + 64;
 /// Bytes of an attachment that are read for its name.
 constexpr std::size_t kAttachmentBeginning = 4096;
+/// Unpacked chunks that are kept beside the present one, for readers that go back and forth, as in the order of other
+/// times than that of the file.
+constexpr std::size_t kKeptChunks = 8;
+constexpr std::size_t kMaxKeptBytes = std::size_t{1} << 26;
 
 Chunk readChunk(RecordReader& reader) {
   Chunk chunk;
@@ -33,6 +38,8 @@ struct Reader::Impl {
   std::optional<Message> nextInChunk();
   std::optional<Message> take(const Record& record);
   void openChunk(const Record& record);
+  bool takeKeptChunk(std::uint64_t record);
+  void keepChunk();
   void add(Opcode opcode, std::span<const std::uint8_t> content);
   std::optional<Message> messageOf(std::span<const std::uint8_t> content);
   bool readSummary();
@@ -47,6 +54,12 @@ struct Reader::Impl {
   std::vector<std::uint8_t> chunk;  ///< the records of the present one
   std::size_t chunk_at = 0;         ///< position in it
   std::uint64_t chunk_record = 0;   ///< its record in the file
+  std::uint64_t chunk_end = 0;      ///< of that record
+  struct KeptChunk {
+    std::uint64_t record = 0, end = 0;
+    std::vector<std::uint8_t> records;
+  };
+  std::deque<KeptChunk> kept_chunks;  ///< the latest one first
   Place place;
   std::uint64_t from_ns = 0;
   bool is_over = false;
@@ -101,6 +114,32 @@ void Reader::Impl::openChunk(const Record& record) {
   chunk = std::move(records);
   chunk_at = 0;
   chunk_record = record.start;
+  chunk_end = record.start + kRecordPrefixBytes + record.length;
+}
+
+/// Makes a chunk the present one, if it is the present one or kept. @returns whether it is
+bool Reader::Impl::takeKeptChunk(std::uint64_t record) {
+  if (!chunk.empty() && chunk_record == record) return true;
+  keepChunk();
+  const auto kept = std::find_if(kept_chunks.begin(), kept_chunks.end(),
+                                 [record](const KeptChunk& one) { return one.record == record; });
+  if (kept == kept_chunks.end()) return false;
+  chunk = std::move(kept->records);
+  chunk_record = record;
+  chunk_end = kept->end;
+  kept_chunks.erase(kept);
+  return true;
+}
+
+/// Moves the present chunk to those that are kept.
+void Reader::Impl::keepChunk() {
+  if (!chunk.empty()) kept_chunks.push_front({chunk_record, chunk_end, std::move(chunk)});
+  chunk.clear();
+  std::size_t bytes = 0, count = 0;
+  while (count < kept_chunks.size() && count < kKeptChunks && bytes < kMaxKeptBytes) {
+    bytes += kept_chunks[count++].records.size();
+  }
+  kept_chunks.resize(count);
 }
 
 std::optional<Message> Reader::Impl::nextInChunk() {
@@ -288,9 +327,7 @@ void Reader::seek(const Place& place) {
   impl_->is_over = false;
   impl_->from_ns = 0;
   impl_->stream.stop("");
-  const bool is_loaded = !impl_->chunk.empty() && impl_->chunk_record == place.record;
-  if (!is_loaded) {
-    impl_->chunk.clear();
+  if (!impl_->takeKeptChunk(place.record)) {
     impl_->chunk_at = 0;
     impl_->stream.seek(place.record);
     if (place.in_chunk == 0) return;  // a message that is in no chunk, or the beginning of a chunk
@@ -304,9 +341,7 @@ void Reader::seek(const Place& place) {
       return;
     }
   } else {
-    // The records after the chunk follow.
-    impl_->stream.seek(place.record);
-    impl_->stream.nextBeginning(0);
+    impl_->stream.seek(impl_->chunk_end);  // the records after the chunk follow
   }
   impl_->chunk_at = std::min(static_cast<std::size_t>(place.in_chunk), impl_->chunk.size());
 }

@@ -22,6 +22,9 @@ const Codec& bearingRangeCodec();
 const Codec& valuesCodec();
 ///@}
 
+/// Recorded value of an odometry's angular speed of exactly 0: stock icp-slam computes NaN for 0.
+inline constexpr double kNoTurn_radps = 1e-6;
+
 /// All codecs, addedCodecs() first. The first one that encodes a sensor's measurements is used.
 std::vector<const Codec*> codecs();
 

@@ -102,6 +102,8 @@ void JpegObservation::serializeTo(mrpt::serialization::CArchive& out) const {
 }
 
 std::string extractJpeg(const mrpt::obs::CObservationImage& observation, const fs::path& pictures) {
+  const auto* const with_file = dynamic_cast<const JpegObservation*>(&observation);
+  if (with_file && !with_file->jpeg.empty()) return with_file->jpeg;
   if (observation.image.isExternallyStored()) return fileOf(observation.image, pictures);
   mrpt::io::CMemoryStream stream;
   observation.image.saveToStreamAsJPEG(stream);

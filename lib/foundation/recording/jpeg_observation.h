@@ -18,8 +18,8 @@ class JpegObservation : public mrpt::obs::CObservationImage {
   void serializeTo(mrpt::serialization::CArchive& out) const override;
 };
 
-/// The image of an observation as a JPEG file. An external image file is returned unchanged; an embedded image has been
-/// decompressed by MRPT, and is compressed again.
+/// The image of an observation as a JPEG file. That of a JpegObservation and an external image file are returned
+/// unchanged; another embedded image has been decompressed, and is compressed again.
 /// @param pictures the recording's folder of images
 /// @throws RecordingError when the file does not exist, is not in this folder or below it (links are followed only
 ///         within it), is not a regular file, or is larger than 64 MiB; std::exception when there is no image.

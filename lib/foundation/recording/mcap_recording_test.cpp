@@ -134,7 +134,7 @@ TEST_F(McapRecordingTest, RefusesSensoryFramesAndExternalImages) {
             file_.string() + ": an MCAP file has all pictures; record them embedded, or a .rawlog");
 }
 
-TEST_F(McapRecordingTest, RefusesMcapFilesOfOtherPrograms) {
+TEST_F(McapRecordingTest, RefusesAnEmptyMcapFileOfAnotherProgram) {
   const auto other = in("other.mcap");
   {
     std::ofstream out(other, std::ios::binary);
@@ -145,10 +145,8 @@ TEST_F(McapRecordingTest, RefusesMcapFilesOfOtherPrograms) {
         {"ros2", "other"});
     writer.finish();
   }
-  EXPECT_EQ(errorOf([&] { RawlogReader reader(other); }),
-            other.string() +
-                ": is an MCAP file without the topic /robosim/rawlog, because it was not recorded by "
-                "RoboSim; convert it to a rawlog");
+  EXPECT_EQ(errorOf([&] { RawlogReader(other).next(); }),
+            other.string() + ": contains no message; it is an empty recording of ROS 2");
 }
 
 }  // namespace

@@ -7,9 +7,6 @@ namespace {
 
 using mrpt::obs::CObservationOdometry;
 
-/// Recorded value of an angular speed of exactly 0: stock icp-slam computes NaN for 0.
-constexpr double kNoTurn_radps = 1e-6;
-
 /// Odometry: CObservationOdometry with speeds.
 class OdometryCodec : public CodecOf<CObservationOdometry, Odometry> {
   void init(CObservationOdometry& observation, const SensorInfo&) const override { observation.hasVelocities = true; }

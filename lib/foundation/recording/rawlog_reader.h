@@ -13,9 +13,11 @@
 
 namespace robosim {
 
-/// Reads the observations of an MRPT rawlog, recorded by RoboSim or other programs, in order. Sensory frames are split
-/// into observations; odometry increments of actions are accumulated and returned as CObservationOdometry with the
-/// label kFromActions. Other objects are skipped and counted.
+/// Reads the observations of a recording, by RoboSim or other programs, in order: of an MRPT rawlog, of the rawlog in
+/// an MCAP file of RoboSim, or of a recording of ROS 2 (an MCAP file, a .db3 or a folder of rosbag2: doc/ros2.md),
+/// whose observations are in the order of time, with labels and poses of sensors as of RoboSim. Sensory frames are
+/// split into observations; odometry increments of actions are accumulated and returned as CObservationOdometry with
+/// the label kFromActions. Other objects are skipped and counted.
 ///
 /// A truncated or damaged file is read up to the damage, which readError() describes. A damaged picture alone is left
 /// out, and the entries after it are read.
@@ -24,12 +26,15 @@ class RawlogReader {
   using Access = UnpackedFile::Access;
 
   /// @param access random: required for seek()
-  /// @throws ConfigError when the file does not exist, cannot be read, or does not begin with a rawlog's header.
+  /// @throws ConfigError when the file does not exist, cannot be read, or does not begin with a rawlog's header. Of a
+  /// recording of ROS 2, next() also throws it, when there is nothing that is read
   explicit RawlogReader(const std::filesystem::path& file, Access access = Access::sequential);
   ~RawlogReader();
   RawlogReader(const RawlogReader&) = delete;
   RawlogReader& operator=(const RawlogReader&) = delete;
 
+  /// Whether this is a recording of ROS 2 by another program, whose timestamps are times. next() reads all of it first.
+  bool isOfRos() const;
   /// The folder of external images beside the file: "<stem>_Images".
   const std::filesystem::path& pictureFolder() const;
 
@@ -53,6 +58,11 @@ class RawlogReader {
   std::uint64_t entries() const;
   /// Number of objects that are neither observation nor action nor frame.
   std::uint64_t skippedEntries() const;
+  /// @name ReadReport, of a recording of ROS 2
+  ///@{
+  const std::vector<std::string>& unread() const;
+  const std::vector<std::string>& assumptions() const;
+  ///@}
 
  private:
   struct Impl;

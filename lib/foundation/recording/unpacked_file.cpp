@@ -122,8 +122,8 @@ void UnpackedFile::Impl::openMcap() {
   messages.emplace(name);
   takeMessage();
   if (end > 0 || !fault.empty()) return;
-  throw ConfigError(name.string() + ": is an MCAP file without the topic " + kRawlogTopic +
-                    ", because it was not recorded by RoboSim; convert it to a rawlog");
+  throw ConfigError(name.string() + ": is an MCAP file without messages on the topic " + kRawlogTopic +
+                    ", so that it has no rawlog");
 }
 
 /// Appends the next message to the output.

@@ -417,6 +417,26 @@ struct CompressedImage {
   bool operator==(const CompressedImage&) const = default;
 };
 
+struct Image {
+  Header header;  ///< of the optical frame
+  std::uint32_t height = 0, width = 0;
+  std::string encoding;  ///< "rgb8", "mono8", …
+  std::uint8_t is_bigendian = 0;
+  std::uint32_t step = 0;  ///< bytes of a row
+  std::vector<std::uint8_t> data;
+  static constexpr const char* kType = "sensor_msgs/msg/Image";
+  static void describe(auto& self, auto&& visit) {
+    visit("header", self.header);
+    visit("height", self.height);
+    visit("width", self.width);
+    visit("encoding", self.encoding);
+    visit("is_bigendian", self.is_bigendian);
+    visit("step", self.step);
+    visit("data", self.data);
+  }
+  bool operator==(const Image&) const = default;
+};
+
 struct RegionOfInterest {
   std::uint32_t x_offset = 0, y_offset = 0, height = 0, width = 0;
   bool do_rectify = false;
