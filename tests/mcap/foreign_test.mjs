@@ -1,0 +1,234 @@
+// Recordings of ROS 2 by other programs: files by @mcap/core in every variant, messages by Foxglove's encoder, and
+// databases by SQLite, read by RoboSim and compared with the rawlog of the same run.
+
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+import { McapStreamReader } from '@mcap/core';
+import { loadDecompressHandlers } from '@mcap/support';
+import * as zstd from '@foxglove/wasm-zstd';
+
+import { COMPRESSIONS, encoded, mcapOf, messagesIn, padded, writeDatabase, writeFolder } from './foreign_files.mjs';
+
+const FOLDER = fileURLToPath(new URL('../..', import.meta.url));
+const ROBOSIM = process.env.ROBOSIM_PROGRAM ?? `${FOLDER}build/release/bin/robosim`;
+
+let folder;
+let handlers;
+let messages;  // of the run
+const inFolder = (...names) => join(folder, ...names);
+const robosim = (...args) => execFileSync(ROBOSIM, args, { cwd: FOLDER, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+const tableOf = (recording) => {
+  robosim('export', recording, inFolder('table.csv'));
+  return readFileSync(inFolder('table.csv'), 'utf8');
+};
+const refusalOf = (recording) => {
+  const { status, stderr } = spawnSync(ROBOSIM, ['replay', recording], { cwd: FOLDER, encoding: 'utf8' });
+  assert.equal(status, 1);
+  return stderr;
+};
+const summaryOf = (recording) => JSON.parse(robosim('replay', recording, '--json'));
+const countOf = (recording, label) => summaryOf(recording).channels.find((one) => one.label === label)?.count ?? 0;
+
+const rowsOf = (csv) => {
+  const [head, ...lines] = csv.trimEnd().split('\n').map((line) => line.split(','));
+  return lines.map((line) => Object.fromEntries(head.map((name, i) => [name, line[i]])));
+};
+
+// Tables are long: of different ones, only the first line that differs.
+function assertSame(table, expected, what) {
+  if (table === expected) return;
+  const [lines, others] = [table.split('\n'), expected.split('\n')];
+  const at = lines.findIndex((line, i) => line !== others[i]);
+  assert.fail(`${what}: line ${at + 1} is ${lines[at]?.slice(0, 200)}, not ${others[at]?.slice(0, 200)}`);
+}
+
+// Headings are quaternions in messages.
+function assertSameRun(csv, expected) {
+  const recorded = new Map(rowsOf(expected).map((row) => [`${row.robot} ${row.step}`, row]));
+  let compared = 0;
+  for (const row of rowsOf(csv)) {
+    const one = recorded.get(`${row.robot} ${row.step}`);
+    assert.ok(one, `${row.robot} ${row.step}`);
+    for (const [column, text] of Object.entries(row)) {
+      const what = `${row.robot}, step ${row.step}, ${column}`;
+      if (column.endsWith('/heading_rad')) {
+        const turn = Number(text) - Number(one[column]);
+        assert.ok(Math.abs(Math.atan2(Math.sin(turn), Math.cos(turn))) < 1e-15, what);
+      } else {
+        assert.equal(text, one[column], what);
+      }
+      if (text !== '') ++compared;
+    }
+  }
+  return compared;
+}
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'robosim-foreign-'));
+  handlers = await loadDecompressHandlers();
+  await zstd.isLoaded;
+  for (const name of ['run.mcap', 'run.rawlog']) {
+    robosim('run', 'worlds/small_maze.xml', '--time', '5', '--seed', '7', '--record', inFolder(name));
+  }
+  messages = encoded(messagesIn(readFileSync(inFolder('run.mcap')), handlers));
+  writeFileSync(inFolder('foreign.mcap'), await mcapOf(messages));
+});
+
+after(() => rmSync(folder, { recursive: true }));
+
+test('a file of another program has the numbers of the rawlog of the same run', () => {
+  const compared = assertSameRun(tableOf(inFolder('foreign.mcap')), tableOf(inFolder('run.rawlog')));
+  assert.ok(compared > 10000, `${compared} numbers`);
+});
+
+test('so have a database and folders of rosbag2', async () => {
+  const expected = tableOf(inFolder('foreign.mcap'));
+  writeDatabase(inFolder('foreign.db3'), messages);
+  assertSame(tableOf(inFolder('foreign.db3')), expected);
+  for (const [format, count] of [['db3', 1], ['db3', 3], ['mcap', 2]]) {
+    const name = `${format}_${count}`;
+    mkdirSync(inFolder(name));
+    await writeFolder((file) => inFolder(name, file), messages, format, count);
+    assertSame(tableOf(inFolder(name)), expected, name);
+  }
+});
+
+test('a summary names topics that are not read', () => {
+  const { not_read: notRead, assumed, whole } = summaryOf(inFolder('foreign.mcap'));
+  assert.ok(notRead.includes('/Pioneer1/sonar/points (sensor_msgs/msg/PointCloud2), 51 messages'), notRead);
+  assert.ok(notRead.includes('/map (nav_msgs/msg/OccupancyGrid), 1 message'), notRead);
+  assert.deepEqual(assumed, []);
+  assert.equal(whole, true);
+});
+
+// The variants of the conformance tests of foxglove/mcap, as far as @mcap/core writes them.
+const SWITCHES = ['useStatistics', 'useSummaryOffsets', 'repeatSchemas', 'repeatChannels', 'useAttachmentIndex',
+                  'useMetadataIndex', 'useMessageIndex', 'useChunkIndex'];
+const allOf = (value) => Object.fromEntries(SWITCHES.map((name) => [name, value]));
+
+function* variants() {
+  const chunkings = [['no chunks', { useChunks: false }]];
+  for (const [name, compressChunk] of Object.entries(COMPRESSIONS)) {
+    chunkings.push([`chunks, ${name}`, { useChunks: true, chunkSize: 50_000, compressChunk }]);
+  }
+  for (const [name, chunking] of chunkings) {
+    yield [`${name}, all`, { ...allOf(true), ...chunking }];
+    yield [`${name}, no summary`, { ...allOf(false), ...chunking }];
+    yield [`${name}, with extras`, { ...chunking, hasExtras: true, schemaless: 1 }];
+  }
+  // Each switch off, and each alone on, of one chunking each.
+  for (const name of SWITCHES) {
+    yield [`zstd without ${name}`, { ...allOf(true), ...chunkings[2][1], [name]: false, hasExtras: true }];
+    yield [`lz4 with ${name} only`, { ...allOf(false), ...chunkings[3][1], [name]: true, hasExtras: true }];
+  }
+  yield ['a chunk for each message', { ...allOf(true), useChunks: true, chunkSize: 1 }];
+}
+
+test('every variant of a file is read equally', async () => {
+  const expected = tableOf(inFolder('foreign.mcap'));
+  for (const [name, options] of variants()) {
+    writeFileSync(inFolder('variant.mcap'), await mcapOf(messages, options));
+    assertSame(tableOf(inFolder('variant.mcap')), expected, name);
+  }
+  writeFileSync(inFolder('padded.mcap'), padded(await mcapOf(messages, { useChunks: false, hasExtras: true })));
+  assertSame(tableOf(inFolder('padded.mcap')), expected, 'padding');
+});
+
+test('messages in any order of the file are read in the order of their times', async () => {
+  const expected = tableOf(inFolder('foreign.mcap'));
+  const shuffled = messages.map((one, i) => [(i * 7919) % messages.length, one]).sort((a, b) => a[0] - b[0]).map(([, one]) => one);
+  writeFileSync(inFolder('shuffled.mcap'), await mcapOf(shuffled, { chunkSize: 20_000, compressChunk: COMPRESSIONS.zstd }));
+  assertSame(tableOf(inFolder('shuffled.mcap')), expected);
+});
+
+test('a file that is cut anywhere has the messages that @mcap/core reads', async () => {
+  for (const options of [{ useChunks: false }, { chunkSize: 50_000, compressChunk: COMPRESSIONS.lz4 }]) {
+    const whole = await mcapOf(messages, options);
+    for (let i = 1; i < 12; ++i) {
+      const cut = whole.subarray(0, Math.floor(i * whole.length / 12) + i);
+      writeFileSync(inFolder('cut.mcap'), cut);
+      const reader = new McapStreamReader({ decompressHandlers: handlers });
+      reader.append(cut);
+      const topics = new Map();
+      let scans = 0;
+      for (let record; (record = reader.nextRecord());) {
+        if (record.type === 'Channel') topics.set(record.id, record.topic);
+        if (record.type === 'Message' && topics.get(record.channelId) === '/Pioneer1/scan') ++scans;
+      }
+      if (topics.size === 0) {
+        assert.match(refusalOf(inFolder('cut.mcap')), /contains no message that can be read: .*cut off/);
+      } else {
+        assert.equal(countOf(inFolder('cut.mcap'), 'Pioneer1/laser'), scans, `${i}`);
+        assert.match(summaryOf(inFolder('cut.mcap')).trouble, /ends early: .*cut off/);
+      }
+    }
+  }
+});
+
+test('a recording of Humble is read, whose Range has no variance', async () => {
+  const older = messages.map((one) => one.type !== 'sensor_msgs/msg/Range' ? one
+    : { ...one, definition: one.definition.replace('float32 variance\n', '') });
+  const humble = encoded(older);
+  assert.ok(humble.find(({ type }) => type.endsWith('/Range')).data.length <
+            messages.find(({ type }) => type.endsWith('/Range')).data.length);
+  writeFileSync(inFolder('humble.mcap'), await mcapOf(humble));
+  assertSame(tableOf(inFolder('humble.mcap')), tableOf(inFolder('foreign.mcap')));
+});
+
+test('selections, figures and pictures are those of the rawlog that the recording becomes', () => {
+  robosim('replay', inFolder('foreign.mcap'), '--output', inFolder('foreign.rawlog'));
+  assertSameRun(tableOf(inFolder('foreign.rawlog')), tableOf(inFolder('foreign.mcap')));
+  for (const recording of ['foreign.mcap', 'foreign.db3', 'foreign.rawlog']) {  // a picture has the name
+    robosim('export', inFolder(recording), inFolder(`${recording}.png`));
+    robosim('view', inFolder(recording), '--to', '3', '--offscreen', inFolder(`${recording}.view.png`));
+  }
+  for (const recording of ['foreign.db3', 'foreign.rawlog']) {
+    for (const picture of ['png', 'view.png']) {
+      const [one, other] = [recording, 'foreign.mcap'].map((name) => readFileSync(inFolder(`${name}.${picture}`)));
+      assert.ok(one.equals(other), `${recording}.${picture}`);
+    }
+  }
+});
+
+test('what cannot be read is refused with the reason', async () => {
+  const write = async (name, all, options) => {
+    writeFileSync(inFolder(name), await mcapOf(all, options));
+    return refusalOf(inFolder(name));
+  };
+  assert.match(await write('empty.mcap', []), /empty\.mcap: contains no message; it is an empty recording of ROS 2/);
+  assert.match(await write('ros1.mcap', messages, { profile: 'ros1', encoding: 'ros1' }),
+               /has messages of ROS 1, which are not read; convert the bag of ROS 1 by rosbags-convert/);
+  assert.match(await write('json.mcap', messages, { profile: '', encoding: 'json' }),
+               /has messages in the encoding json; read are those of ROS 2, in cdr/);
+  assert.match(await write('map.mcap', messages.filter(({ topic }) => topic === '/map')),
+               /has no topic that is read, but \/map \(nav_msgs\/msg\/OccupancyGrid\), 1 message; read are .*LaserScan/);
+  assert.match(await write('secret.mcap', messages, {
+    compressChunk: (records) => ({ compression: 'secret', compressedData: records }),
+  }), /contains no message that can be read: .*"secret"/);
+  writeDatabase(inFolder('empty.db3'), []);
+  assert.match(refusalOf(inFolder('empty.db3')), /contains no message/);
+  execFileSync('python3', ['-c', `import sqlite3; sqlite3.connect("${inFolder('other.db3')}").execute("CREATE TABLE a(b)")`]);
+  assert.match(refusalOf(inFolder('other.db3')), /is no database of rosbag2.*no such table: topics/);
+  mkdirSync(inFolder('nothing'));
+  assert.match(refusalOf(inFolder('nothing')), /is a directory without a recording of rosbag2/);
+  mkdirSync(inFolder('packed'));
+  writeFileSync(inFolder('packed', 'metadata.yaml'),
+                'rosbag2_bagfile_information:\n  compression_format: zstd\n  compression_mode: FILE\n  relative_file_paths:\n    - a.db3.zstd\n');
+  assert.match(refusalOf(inFolder('packed')), /compressed by rosbag2 \(zstd\).*ros2 bag convert/);
+  const zipped = messages.map((one) => ({ ...one, data: zstd.compress(one.data, 1) }));
+  assert.match(await write('messages.mcap', zipped), /its messages are compressed by rosbag2 \(zstd\)/);
+});
+
+test('a damaged message is left out and named', async () => {
+  const damaged = messages.map((one, i) => one.topic === '/Pioneer1/scan' && i > 1000 ? { ...one, data: one.data.subarray(0, 60) } : one);
+  writeFileSync(inFolder('damaged.mcap'), await mcapOf(damaged));
+  const { status, stdout } = spawnSync(ROBOSIM, ['replay', inFolder('damaged.mcap')], { encoding: 'utf8' });
+  assert.equal(status, 1);
+  assert.match(stdout, /messages are damaged and left out, the first of \/Pioneer1\/scan: /);
+});
