@@ -196,6 +196,26 @@ test('selections, figures and pictures are those of the rawlog that the recordin
   }
 });
 
+test('a scanner is fitted as from the rawlog', async () => {
+  writeFileSync(inFolder('room.xml'), `<world><surface><type>smooth</type>
+    <size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>
+    <object><shape><primitive><cube><name>a</name><x>5</x><y>0</y><z>0.5</z><length>0.2</length><width>10</width>
+    <height>1</height><direction>0.3</direction></cube></primitive></shape></object>
+    <object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><sensors><odometry/>
+    <laser noise="lms200" x_m="0.1" z_m="0.2"/></sensors></robot></shape></object></surface></world>`);
+  for (const name of ['room.mcap', 'room.rawlog']) {
+    robosim('run', inFolder('room.xml'), '--controller', 'still', '--time', '20', '--record', inFolder(name));
+  }
+  const room = encoded(messagesIn(readFileSync(inFolder('room.mcap')), handlers));
+  writeFileSync(inFolder('scanner.mcap'), await mcapOf(room));
+  writeDatabase(inFolder('scanner.db3'), room);
+  const fitted = (name) => robosim('fit', inFolder(name)).replaceAll(name, 'recording');
+  const expected = fitted('room.rawlog');
+  assert.match(expected, /<laser/);
+  assert.equal(fitted('scanner.mcap'), expected);
+  assert.equal(fitted('scanner.db3'), expected);
+});
+
 test('what cannot be read is refused with the reason', async () => {
   const write = async (name, all, options) => {
     writeFileSync(inFolder(name), await mcapOf(all, options));

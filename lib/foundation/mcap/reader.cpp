@@ -136,8 +136,10 @@ void Reader::Impl::keepChunk() {
   if (!chunk.empty()) kept_chunks.push_front({chunk_record, chunk_end, std::move(chunk)});
   chunk.clear();
   std::size_t bytes = 0, count = 0;
-  while (count < kept_chunks.size() && count < kKeptChunks && bytes < kMaxKeptBytes) {
-    bytes += kept_chunks[count++].records.size();
+  while (count < kept_chunks.size() && count < kKeptChunks) {
+    bytes += kept_chunks[count].records.size();
+    if (bytes > kMaxKeptBytes) break;
+    ++count;
   }
   kept_chunks.resize(count);
 }
