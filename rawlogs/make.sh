@@ -1,7 +1,8 @@
 #!/bin/sh
 # Recreates the recordings of this folder; may be run from any folder: rawlogs/make.sh
 # The same program creates the same files, byte for byte, except for pictures, which depend on the graphics driver.
-# ROBOSIM is the program (default build/release/bin/robosim). Requires the packages in doc/examples/python_robot/README.md.
+# ROBOSIM is the program (default build/release/bin/robosim). Requires the packages in doc/examples/python_robot/README.md,
+# and those that ./dev test fetches for tests/mcap.
 set -eu
 cd "$(dirname "$0")/.."
 robosim=${ROBOSIM:-build/release/bin/robosim}
@@ -12,6 +13,9 @@ echo "opho2_1.rawlog"
 echo "slam.rawlog, slam_sf.rawlog"
 "$robosim" run rawlogs/slam.xml --seed 5 --step 0.2 --time 90 --record rawlogs/slam.rawlog
 "$robosim" run rawlogs/slam.xml --seed 5 --step 0.2 --time 90 --rawlog-format sf --record rawlogs/slam_sf.rawlog
+
+echo "scanner_bag"
+node tests/mcap/make_scanner_bag.mjs "$robosim" rawlogs/scanner_bag
 
 echo "driven.rawlog"
 work=$(mktemp -d)

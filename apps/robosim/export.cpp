@@ -174,6 +174,7 @@ const std::vector<Format>& formats() {
       {".pdf", "the same", makePlan, RecordingFormat::picture},
       {".csv", "of a rawlog: one row per robot and step, with all values", {}, RecordingFormat::csv},
       {".npz", "of a rawlog: NumPy's arrays, for each robot and sensor", {}, RecordingFormat::npz},
+      {".rawlog", "of a recording: all observations, as an MRPT rawlog", {}, RecordingFormat::rawlog},
       {".mcap", "of a rawlog of RoboSim: topics of ROS 2, for ros2 bag and Foxglove", {}, RecordingFormat::mcap},
   };
   return all;
@@ -332,8 +333,8 @@ void addExport(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
   command
       ->add_option("WORLD", arguments->world,
-                   "world file or map file; or a rawlog, recorded by RoboSim or another program, for .csv, .npz, .png, "
-                   ".svg and .pdf, and an .mcap of RoboSim")
+                   "world file or map file; or a recording of RoboSim or another program, for .csv, .npz, .rawlog, "
+                   ".png, .svg and .pdf: an MRPT rawlog, or a bag of ROS 2 (.mcap, .db3 or its folder)")
       ->transform(inputFile([] {
         std::vector<FileKind> kinds = kWorldKinds;
         kinds.insert(kinds.end(), kRecordingKinds.begin(), kRecordingKinds.end());

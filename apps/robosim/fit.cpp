@@ -52,14 +52,18 @@ void fit(const FitArguments& a) {
 void addFit(CLI::App& program) {
   auto* command = addSubcommand(program, "fit");
   auto a = std::make_shared<FitArguments>();
-  command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog of a real robot with a laser scanner, best at rest")
+  command
+      ->add_option("RAWLOG", a->rawlog,
+                   "a recording of a real robot with a laser scanner, best at rest: an MRPT rawlog, or a bag of ROS 2 "
+                   "(.mcap, .db3 or its folder)")
       ->transform(inputFile(kRecordingKinds))
       ->type_name("FILE")
       ->required();
   command
-      ->add_option("--sensor", a->sensor,
-                   "label of the scanner, or its part after '/'; required if the rawlog has several; LABEL#1, LABEL#2 "
-                   "... for scanners of one label at different poses on the robot")
+      ->add_option(
+          "--sensor", a->sensor,
+          "label of the scanner, or its part after '/'; required if the recording has several; LABEL#1, LABEL#2 "
+          "... for scanners of one label at different poses on the robot")
       ->type_name("LABEL");
   command->add_option("-o,--output", a->output, "write the errors as a <laser> element; default: print it")
       ->type_name("FILE")

@@ -46,8 +46,9 @@ void addReplay(CLI::App& program) {
   auto* command = addSubcommand(program, "replay");
   auto a = std::make_shared<ReplayArguments>();
   command
-      ->add_option("RAWLOG", a->rawlog,
-                   "an MRPT rawlog, recorded by RoboSim or another program, or an .mcap of RoboSim")
+      ->add_option(
+          "RAWLOG", a->rawlog,
+          "a recording of RoboSim or another program: an MRPT rawlog, or a bag of ROS 2 (.mcap, .db3 or its folder)")
       ->transform(inputFile(kRecordingKinds))
       ->type_name("FILE")
       ->required();

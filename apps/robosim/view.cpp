@@ -167,10 +167,10 @@ void addView(CLI::App& program) {
   auto* command = addSubcommand(program, "view");
   auto a = std::make_shared<ViewArguments>();
   command
-      ->add_option(
-          "SOURCE", a->source,
-          "address of a running environment (HOST:PORT), a world file, a map, or a rawlog of any program; shipped "
-          "files also by name alone: maze_20x20")
+      ->add_option("SOURCE", a->source,
+                   "address of a running environment (HOST:PORT), a world file, a map, or a recording of any program "
+                   "(rawlog, or bag of ROS 2); shipped "
+                   "files also by name alone: maze_20x20")
       ->type_name("ADDRESS|FILE")
       ->required();
   addRobotOptions(*command, a->changes);

@@ -152,6 +152,33 @@ export function writeDatabase(file, messages, encoding = 'cdr') {
   execFileSync('python3', ['-B', script, file], { input: JSON.stringify({ encoding, topics, rows }) });
 }
 
+// The metadata.yaml of rosbag2 of messages in these files.
+export function metadataOf(messages, storage, names) {
+  const times = messages.map(({ time }) => time).sort((a, b) => Number(a - b));
+  const topics = new Map();
+  for (const { topic, type } of messages) topics.set(topic, { type, count: (topics.get(topic)?.count ?? 0) + 1 });
+  return `rosbag2_bagfile_information:
+  version: 5
+  storage_identifier: ${storage}
+  duration:
+    nanoseconds: ${times.at(-1) - times[0]}
+  starting_time:
+    nanoseconds_since_epoch: ${times[0]}
+  message_count: ${messages.length}
+  topics_with_message_count:
+${[...topics].map(([topic, { type, count }]) => `    - topic_metadata:
+        name: ${topic}
+        type: ${type}
+        serialization_format: cdr
+        offered_qos_profiles: ""
+      message_count: ${count}
+`).join('')}  compression_format: ""
+  compression_mode: ""
+  relative_file_paths:
+${names.map((name) => `    - ${name}`).join('\n')}
+`;
+}
+
 // Writes a folder of rosbag2, with the messages in several files.
 export async function writeFolder(inFolder, messages, format, count) {
   const names = [];
@@ -161,15 +188,5 @@ export async function writeFolder(inFolder, messages, format, count) {
     if (format === 'db3') writeDatabase(inFolder(names.at(-1)), part);
     else writeFileSync(inFolder(names.at(-1)), await mcapOf(part));
   }
-  writeFileSync(inFolder('metadata.yaml'), `rosbag2_bagfile_information:
-  version: 5
-  storage_identifier: ${format === 'db3' ? 'sqlite3' : 'mcap'}
-  message_count: ${messages.length}
-  compression_format: ""
-  compression_mode: ""
-  relative_file_paths:
-${names.map((name) => `    - ${name}`).join('\n')}
-  files:
-    - path: ${names[0]}
-`);
+  writeFileSync(inFolder('metadata.yaml'), metadataOf(messages, format === 'db3' ? 'sqlite3' : 'mcap', names));
 }

@@ -112,7 +112,7 @@ std::string namesOf(const std::vector<MountedScanner>& all) {
 
 ScanSeries& chosen(const std::string& rawlog, const std::string& sensor, std::vector<MountedScanner>& all) {
   if (all.empty()) {
-    throw ConfigError(rawlog + ": has no laser scans (CObservation2DRangeScan)" +
+    throw ConfigError(rawlog + ": has no laser scans (CObservation2DRangeScan, or LaserScan of ROS 2)" +
                       "; use a recording of a laser scanner");
   }
   if (sensor.empty()) {

@@ -9,6 +9,8 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "recording/observation_writer.h"
+#include "recording/rawlog_reader.h"
 #include "rendering/picture_format.h"
 #include "replay/csv_field.h"
 #include "replay/mcap_export.h"
@@ -39,7 +41,7 @@ RecordingContents contentsOf(const std::string& rawlog, const std::vector<Record
                              ExportProgress& progress) {
   RecordingParts parts{.table = false, .figure = false};
   for (const auto& out : outs) {
-    if (out.format == RecordingFormat::mcap) continue;
+    if (out.format == RecordingFormat::mcap || out.format == RecordingFormat::rawlog) continue;
     (out.format == RecordingFormat::picture ? parts.figure : parts.table) = true;
   }
   RecordingContents read = readRecording(rawlog, parts, [&](std::uint64_t entries) {
@@ -146,16 +148,32 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
   npz.writeDirectory();
 }
 
+/// Writes all observations. @returns the file, without its name yet
+std::unique_ptr<ObservationWriter> writeRawlog(const std::string& recording, const std::filesystem::path& out,
+                                               ExportProgress& progress) {
+  RawlogReader reader(recording);
+  auto writer = std::make_unique<ObservationWriter>(out, reader.pictureFolder());
+  while (const auto observation = reader.next()) {
+    writer->write(*observation);
+    progress.at([&] { return "rawlog: " + withCommas(reader.entries()) + " entries …"; });
+  }
+  return writer;
+}
+
 }  // namespace
 
 bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
                      const FigurePage& page, const TopViewLayers& layers) {
-  std::vector<std::unique_ptr<AtomicFile>> files;  // null for MCAP
+  std::vector<std::unique_ptr<AtomicFile>> files;  // null for MCAP and rawlogs
   for (const auto& out : outs) {
-    const bool is_mcap = out.format == RecordingFormat::mcap;
-    files.push_back(is_mcap ? nullptr : std::make_unique<AtomicFile>(out.file));
+    const bool is_recording = out.format == RecordingFormat::mcap || out.format == RecordingFormat::rawlog;
+    files.push_back(is_recording ? nullptr : std::make_unique<AtomicFile>(out.file));
   }
   ExportProgress progress(interrupt);
+  std::vector<std::unique_ptr<ObservationWriter>> rawlogs;
+  for (const auto& out : outs) {
+    if (out.format == RecordingFormat::rawlog) rawlogs.push_back(writeRawlog(rawlog, out.file, progress));
+  }
   std::vector<McapExport> mcaps;
   for (const auto& out : outs) {
     if (out.format != RecordingFormat::mcap) continue;
@@ -179,6 +197,7 @@ bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
         writeNpz(*contents.table, *files[i], progress);
         break;
       case RecordingFormat::mcap:
+      case RecordingFormat::rawlog:
         break;  // above
       case RecordingFormat::picture:
         progress.at([] { return "drawing …"; });
@@ -191,6 +210,7 @@ bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
     if (file) file->commit();
   }
   for (const auto& mcap : mcaps) mcap.file->commit();
+  for (const auto& writer : rawlogs) writer->commit();
   return !contents.is_damaged;
 }
 

@@ -14,6 +14,7 @@ enum class RecordingFormat {
   csv,      ///< comma-separated values, one row per robot and step
   npz,      ///< NumPy's arrays, for each robot and sensor
   mcap,     ///< MCAP with the topics of ROS 2, of recordings of RoboSim only
+  rawlog,   ///< MRPT rawlog with embedded pictures
   picture,  ///< a figure of the run; PNG, SVG or PDF according to the file name
 };
 

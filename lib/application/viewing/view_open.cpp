@@ -34,12 +34,13 @@ std::unique_ptr<ViewSource> openView(const std::string& source,
   std::error_code ignored;  // for broken links
   if (std::filesystem::exists(std::filesystem::symlink_status(source, ignored))) return viewFile(source, changes, seed);
   const bool looks_like_file = source.find('/') != std::string::npos || source.ends_with(".xml") ||
-                               source.ends_with(".rawlog") || isMapFile(source);
+                               source.ends_with(".rawlog") || source.ends_with(".mcap") || source.ends_with(".db3") ||
+                               isMapFile(source);
   if (looks_like_file)
-    throw ConfigError(source + ": there is no such file; give a world, a map, a rawlog, or HOST:PORT" +
+    throw ConfigError(source + ": there is no such file; give a world, a map, a recording, or HOST:PORT" +
                       searchedText(source));
   if (source.find_first_of(":0123456789") == std::string::npos) {
-    throw ConfigError(source + ": is neither a file nor an address; give a world, a map, a rawlog, or HOST:PORT" +
+    throw ConfigError(source + ": is neither a file nor an address; give a world, a map, a recording, or HOST:PORT" +
                       searchedText(source));
   }
   refuseChanges(source, changes, "a running environment");

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -388,9 +389,13 @@ TEST_F(BagSourceTest, HasTimesAlsoOfMessagesThatAreRecordedInAnInstant) {
   EXPECT_NEAR(last_s, 1.9e-6, 1e-9);
 }
 
-TEST(BagUses, NamesTypesOfMessages) {
-  EXPECT_EQ(bagUseOf("sensor_msgs/msg/LaserScan"), BagUse::observation);
-  EXPECT_EQ(bagUseOf("sensor_msgs/msg/PointCloud2"), BagUse::none);
+TEST(BagUses, AreThoseOfTheDocumentation) {
+  std::ifstream in(ROBOSIM_SOURCE_DIR "/doc/ros2.md");
+  std::stringstream page;
+  page << in.rdbuf();
+  std::string table = "| message | observation |\n|---|---|\n";
+  for (const auto& row : bagUses()) table += std::string("| ") + row.type + " | " + row.content + " |\n";
+  EXPECT_NE(page.str().find(table + "\n"), std::string::npos) << table;
 }
 
 }  // namespace
