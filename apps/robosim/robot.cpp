@@ -16,6 +16,7 @@
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/connection.h"
+#include "robosim/real_robot.h"
 #include "robosim/robot_arguments.h"
 #include "robosim/subcommands.h"
 #include "run/known_world.h"
@@ -182,7 +183,8 @@ constexpr const char* kRobotExamples =
     "Examples:\n"
     "  robosim robot Pioneer1 Scout1                                        (of a served world)\n"
     "  robosim robot --arcos serial:/dev/ttyUSB0 --controller wander --record run.rawlog    (a real Pioneer)\n"
-    "  robosim robot --arcos tcp:127.0.0.1:8101 --controller wander         (of robosim arcos, or another simulator)\n";
+    "  robosim robot --arcos tcp:127.0.0.1:8101 --controller wander         (of robosim arcos, or another simulator)\n"
+    "  robosim robot --ros2 /robot1 --robot-type p3dx --controller wander   (a robot that speaks ROS 2)\n";
 
 }  // namespace
 
@@ -190,7 +192,7 @@ void addRobot(CLI::App& program) {
   auto* command = addSubcommand(program, "robot");
   auto a = std::make_shared<RobotArguments>();
   command->add_option("NAME", a->names,
-                      "names of robots in the environment's world; with --arcos, a name for the robot, or none");
+                      "names of robots in the environment's world; of a real robot, a name for the robot, or none");
   auto* separate_processes =
       command->add_flag("--separate-processes", a->separate_processes,
                         "run each robot in a separate process; takes half the time of separately started programs");
@@ -219,18 +221,34 @@ void addRobot(CLI::App& program) {
       ->type_name("SECONDS")
       ->capture_default_str();
   addListenerOptions(*command, a->listener);
+  command
+      ->add_option("--robot-type", a->robot_type,
+                   "robot type of --arcos or --ros2; default: what a robot of --arcos reports")
+      ->type_name("TYPE");
+  command
+      ->add_option("--record", a->record,
+                   "record the readings of a real robot to this file, as an MRPT rawlog or, if it ends in .mcap, as "
+                   "MCAP with topics of ROS 2")
+      ->type_name("FILE")
+      ->check(fileName());
+  for (const char* name : {"--robot-type", "--record"}) command->get_option(name)->group(kRealRobotGroup);
   addArcosRobotOptions(*command, *a);
+  addRos2RobotOptions(*command, *a);
   const CLI::Option* remote_port = command->get_option("--remote-port");
   for (const char* name : {"--dead-man", "--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"}) {
     dependsOn(command->get_option(name), remote_port)->group("Remote control");
   }
   command->get_option("--remote-port")->group("Remote control");
   for (const char* name : {"--separate-processes", "--map", "--join-next-run"}) {
-    command->get_option(name)->excludes("--arcos");
+    command->get_option(name)->excludes("--arcos")->excludes("--ros2");
   }
   command->footer(kRobotExamples);
-  command->callback([a] {
+  command->callback([a, command] {
     if (!a->arcos.empty()) return driveArcosRobot(*a);
+    if (!a->ros2.empty()) return driveRos2Robot(*a);
+    for (const char* name : {"--robot-type", "--record"}) {
+      if (command->count(name) > 0) throw CLI::RequiresError(name, "--arcos or --ros2");
+    }
     if (a->names.empty()) throw CLI::RequiredError("NAME");
     a->separate_processes ? driveInSeparateProcesses(*a) : driveRobots(*a);
   });

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,13 @@ struct RobotArguments {
   std::string remote_port;
   ListenerArguments listener;
   double dead_man_s = toSeconds(DriveCommandFilter::kDeadMan);
-  std::string arcos;       ///< channel to a robot that speaks ARCOS, as openChannel(); empty: a robot of a served world
-  std::string arcos_type;  ///< its robot type; empty: what it reports
+  std::string arcos;  ///< channel to a robot that speaks ARCOS, as openChannel(); empty: a robot of a served world
+  std::string ros2;   ///< namespace of a robot that speaks ROS 2, "/" for none; empty: another robot
+  std::vector<std::string> ros2_topics;  ///< "scan=/base_scan"
+  std::optional<int> ros2_domain;        ///< nullopt: ROS_DOMAIN_ID, or 0
+  std::string ros2_interface;
+  std::vector<std::string> ros2_peers;
+  std::string robot_type;  ///< of a real robot; empty: what a robot that speaks ARCOS reports
   std::string arcos_log;
   std::string laser;  ///< serial device of an LMS200; empty: none
   std::string record;
@@ -53,11 +59,13 @@ void guarded(const std::string& controller_name, const std::string& robot, const
   }
 }
 
-/// @name A robot that speaks ARCOS (arcos_robot.cpp)
+/// @name Real robots: one that speaks ARCOS (arcos_robot.cpp), or ROS 2 (ros2_robot.cpp)
+/// They are driven until their controller halts them or Ctrl-C. @throws ConfigError @throws RobotLinkError
 ///@{
 void addArcosRobotOptions(CLI::App& command, RobotArguments& arguments);
-/// Drives the robot until its controller halts it or Ctrl-C. @throws ConfigError @throws RobotLinkError
 void driveArcosRobot(const RobotArguments& arguments);
+void addRos2RobotOptions(CLI::App& command, RobotArguments& arguments);
+void driveRos2Robot(const RobotArguments& arguments);
 ///@}
 
 }  // namespace robosim

@@ -42,18 +42,6 @@ ros::TransformStamped transformOf(const std::string& parent, const std::string& 
   return {{stamp, parent}, child, {{pose.x, pose.y, pose.z}, rotationOf(pose.yaw, pose.pitch, pose.roll)}};
 }
 
-/// "scan" for "laser", "scan_2" for "laser_2"; other labels as they are.
-std::string topicOf(const SensorInfo& sensor) {
-  const std::string kind = nameOf(sensor.kind);
-  const std::string base = sensor.kind == SensorKind::odometry ? "odom"
-                           : sensor.kind == SensorKind::laser  ? "scan"
-                                                               : kind;
-  const std::string& label = sensor.label;
-  if (label == kind) return base;
-  if (label.starts_with(kind + "_")) return topicNamePart(base + label.substr(kind.size()));
-  return topicNamePart(label);
-}
-
 /// By REP 117.
 float rangeOf(const SensorInfo& sensor, float range_m) {
   if (range_m >= static_cast<float>(sensor.no_echo_m)) return kInfinite;
@@ -163,6 +151,17 @@ ros::MessageTemplate compassTemplate(const std::string& frame) {
 }
 
 }  // namespace
+
+std::string topicOf(const SensorInfo& sensor) {
+  const std::string kind = nameOf(sensor.kind);
+  const std::string base = sensor.kind == SensorKind::odometry ? "odom"
+                           : sensor.kind == SensorKind::laser  ? "scan"
+                                                               : kind;
+  const std::string& label = sensor.label;
+  if (label == kind) return base;
+  if (label.starts_with(kind + "_")) return topicNamePart(base + label.substr(kind.size()));
+  return topicNamePart(label);
+}
 
 ros::Pose poseOf(const TPose2D& pose) { return {{pose.x, pose.y, 0}, rotationOf(pose.phi, 0, 0)}; }
 

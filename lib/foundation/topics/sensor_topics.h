@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <string>
 
 #include "hardware/measurement.h"
 #include "hardware/sensor_info.h"
@@ -40,6 +41,10 @@ inline constexpr std::array kSensorTopicRows{
                    "the values; the layout's label names the quantities"},
     SensorTopicRow{SensorKind::unknown, "", "", "none"},
 };
+/// The topic of a sensor below the robot's, or the beginning of its topics: "scan" for "laser", "scan_2" for "laser_2";
+/// other labels as they are.
+std::string topicOf(const SensorInfo& sensor);
+
 static_assert(kSensorTopicRows.size() == kSensorKindNames.size(), "every kind of sensor has a row");
 
 }  // namespace robosim

@@ -8,7 +8,7 @@
 #include "arcos/client/arcos_client.h"
 #include "arcos/client/byte_channel.h"
 #include "arcos/protocol/parameters.h"
-#include "hardware/hardware.h"
+#include "hardware/real_robot.h"
 
 namespace robosim {
 
@@ -29,16 +29,13 @@ class ScanSource {
 
 /// A robot that speaks ARCOS: a real Pioneer, or a simulated one. The controllers that drive it are those that drive a
 /// simulated robot; a time step is the cycle of its SIPs, 0.1 s. RobotInfo::limits are those that the robot is
-/// configured for. Usage as NetworkHardware:
-///
-///     ArcosHardware hardware(openChannel("serial:/dev/ttyUSB0"), options);
-///     do { … the controller reads and commands hardware … } while (hardware.nextStep());
+/// configured for.
 ///
 /// Commands are rounded to whole mm/s and degrees/s; the remainder is added to the next command, so that the rounding
 /// does not accumulate. The robot stands, whatever its controller commands, while the emergency stop is pressed, its
 /// motors are disabled, its battery is low or its laser scanner does not answer; BaseState::stop_reason and the log
 /// state the reason. Without commands it stops by its own watchdog, within 2 s.
-class ArcosHardware final : public Hardware, public BaseLink {
+class ArcosHardware final : public RealRobot, public BaseLink {
  public:
   struct Options {
     /// The type of a subclass: the robot's answer in the handshake, such as "p3dx". @throws ConfigError
@@ -69,13 +66,9 @@ class ArcosHardware final : public Hardware, public BaseLink {
   void enableMotors(bool on) override;
   void enableSonar(bool on) override;
 
-  /// Sends the command, and waits for the next readings. @return false when `interrupted`, and at the end of a log
-  /// @throws RobotLinkError when the connection is lost, or the robot is silent for kSilenceMax
-  bool nextStep();
-  /// Stops the robot, takes steps until it stands, also when `interrupted`, and closes the session. The destructor does
-  /// not wait. @param each_step called after each of these steps
-  /// @throws RobotLinkError when the connection is lost
-  void close(const std::function<void()>& each_step = [] {});
+  bool nextStep() override;
+  /// The destructor does not wait.
+  void close(const std::function<void()>& each_step = [] {}) override;
   /// Number of SIPs received. Several that arrive together are one step.
   std::uint64_t sips() const { return client_.sips(); }
 

@@ -1,17 +1,12 @@
 #pragma once
 #include <chrono>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
-namespace robosim {
+#include "hardware/real_robot.h"
 
-/// The connection with a robot is lost. The message states which, why, and what to do.
-class RobotLinkError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace robosim {
 
 /// The end of a log that is replayed.
 class ChannelEnd : public RobotLinkError {

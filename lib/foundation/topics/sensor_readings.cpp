@@ -1,0 +1,157 @@
+#include "topics/sensor_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "hardware/scan_geometry.h"
+#include "ros/cdr.h"
+#include "topics/sensor_topics.h"
+
+namespace robosim {
+namespace {
+
+constexpr std::size_t kBeamsMax = 1 << 16;
+
+std::uint64_t nanosecondsOf(const ros::Header& header) {
+  const auto& [sec, nanosec] = header.stamp;
+  return sec < 0 ? 0 : static_cast<std::uint64_t>(sec) * 1'000'000'000 + nanosec;
+}
+
+double yawOf(const ros::Quaternion& q) {
+  return std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+}
+
+/// The echo of a range by REP 117: infinite for none, negative infinite for one below the minimum, NaN if invalid.
+Echo echoOf(const SensorInfo& sensor, std::size_t beam, float range_m) {
+  const auto min_m = static_cast<float>(sensor.range_min_m), max_m = static_cast<float>(sensor.range_max_m);
+  const bool is_none = std::isnan(range_m) || range_m > max_m;
+  const float read_m = is_none ? static_cast<float>(sensor.no_echo_m) : std::max(range_m, min_m);
+  const Beam& along = sensor.beams[beam];
+  return {read_m, pointAlong(originOf(along), directionOf(along), read_m)};
+}
+
+/// Reads a message of a sensor's kind; an overload for each kind of measurement.
+struct Reading {
+  const SensorInfo& sensor;
+  std::size_t beam;
+  std::span<const std::uint8_t> message;
+
+  std::uint64_t operator()(Echoes& echoes) const {
+    if (sensor.kind != SensorKind::laser || !toScanGeometry(sensor.beams)) {
+      const auto range = ros::decode<ros::Range>(message);
+      echoes.at(beam) = echoOf(sensor, beam, range.range);
+      return nanosecondsOf(range.header);
+    }
+    const auto scan = ros::decode<ros::LaserScan>(message);
+    if (scan.ranges.size() != echoes.size()) {
+      throw std::runtime_error("a scan of " + std::to_string(scan.ranges.size()) + " ranges, after one of " +
+                               std::to_string(echoes.size()));
+    }
+    for (std::size_t i = 0; i < echoes.size(); ++i) echoes[i] = echoOf(sensor, i, scan.ranges[i]);
+    return nanosecondsOf(scan.header);
+  }
+  std::uint64_t operator()(Scalar& scalar) const {
+    if (sensor.kind == SensorKind::heat) {
+      const auto heat = ros::decode<ros::Temperature>(message);
+      return scalar.value = heat.temperature, nanosecondsOf(heat.header);
+    }
+    if (sensor.kind == SensorKind::battery) {
+      const auto battery = ros::decode<ros::BatteryState>(message);
+      return scalar.value = std::isfinite(battery.voltage) ? battery.voltage : 0, nanosecondsOf(battery.header);
+    }
+    const auto imu = ros::decode<ros::Imu>(message);
+    return scalar.value = yawOf(imu.orientation), nanosecondsOf(imu.header);
+  }
+  std::uint64_t operator()(Contacts& contacts) const {
+    const auto array = ros::decode<ros::UInt8MultiArray>(message);
+    for (std::size_t i = 0; i < std::min(array.data.size(), contacts.pressed.size()); ++i) {
+      contacts.pressed[i] = array.data[i] != 0 ? 1 : 0;
+    }
+    return 0;
+  }
+  std::uint64_t operator()(Odometry& odometry) const {
+    const auto read = ros::decode<ros::Odometry>(message);
+    const auto& pose = read.pose.pose;
+    odometry = {{pose.position.x, pose.position.y, yawOf(pose.orientation)},
+                read.twist.twist.linear.x,
+                read.twist.twist.angular.z};
+    return nanosecondsOf(read.header);
+  }
+  std::uint64_t operator()(Image& image) const {
+    const auto picture = ros::decode<ros::CompressedImage>(message);
+    std::string jpeg(picture.data.begin(), picture.data.end());
+    if (const std::string fault = Description<Image>::fileFaultOf(jpeg); !fault.empty()) {
+      throw std::runtime_error("a picture in the format '" + picture.format + "': " + fault);
+    }
+    image.jpeg = std::move(jpeg);
+    return nanosecondsOf(picture.header);
+  }
+  std::uint64_t operator()(auto&) const { return 0; }  // no topics
+};
+
+}  // namespace
+
+std::vector<SensorSource> sourcesOf(const SensorInfo& sensor) {
+  const std::string part = topicOf(sensor);
+  switch (sensor.kind) {
+    case SensorKind::laser:
+      if (toScanGeometry(sensor.beams)) return {{part, &ros::typeOf<ros::LaserScan>()}};
+      [[fallthrough]];
+    case SensorKind::sonar:
+    case SensorKind::infrared: {
+      std::vector<SensorSource> sources;
+      for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
+        sources.push_back({part + "/range_" + std::to_string(i), &ros::typeOf<ros::Range>(), i});
+      }
+      return sources;
+    }
+    case SensorKind::heat:
+      return {{part, &ros::typeOf<ros::Temperature>()}};
+    case SensorKind::bumper:
+      return {{part, &ros::typeOf<ros::UInt8MultiArray>()}};
+    case SensorKind::odometry:
+      return {{part, &ros::typeOf<ros::Odometry>()}};
+    case SensorKind::compass:
+      return {{part, &ros::typeOf<ros::Imu>()}};
+    case SensorKind::camera:
+      return {{part + "/image_raw/compressed", &ros::typeOf<ros::CompressedImage>()}};
+    case SensorKind::battery:
+      return {{part, &ros::typeOf<ros::BatteryState>()}};
+    case SensorKind::blob_finder:
+    case SensorKind::beacons:
+    case SensorKind::values:
+    case SensorKind::unknown:
+      break;
+  }
+  return {};
+}
+
+SensorInfo scannerOf(const ros::LaserScan& scan, const mrpt::math::TPose3D& robot_from_scan, const SensorInfo& like) {
+  const std::size_t n = scan.ranges.size();
+  if (n < 2 || n > kBeamsMax) throw std::runtime_error("a scan of " + std::to_string(n) + " ranges");
+  if (!std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment))
+    throw std::runtime_error("a scan without angles");
+  if (!(scan.range_max > 0) || !std::isfinite(scan.range_max) || !(scan.range_min >= 0))
+    throw std::runtime_error("a scan without limits of its ranges");
+  SensorInfo scanner = like;
+  scanner.pans = false;
+  scanner.range_min_m = scan.range_min;
+  scanner.range_max_m = scanner.no_echo_m = scan.range_max;
+  scanner.beams.assign(n, {robot_from_scan});
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle_rad = scan.angle_min + static_cast<double>(i) * scan.angle_increment;
+    scanner.beams[i].robot_from_beam.yaw = std::remainder(robot_from_scan.yaw + angle_rad, 2 * M_PI);
+  }
+  if (!toScanGeometry(scanner.beams))
+    throw std::runtime_error("a scan that is wider than a full turn, or has no angle between its ranges");
+  return scanner;
+}
+
+std::uint64_t readMeasurement(const SensorInfo& sensor, std::size_t beam, std::span<const std::uint8_t> message,
+                              Measurement& measurement) {
+  return std::visit(Reading{sensor, beam, message}, measurement);
+}
+
+}  // namespace robosim
