@@ -287,11 +287,12 @@ void Ros2Hardware::sendSpeeds(double speed_mps, double turn_radps) {
     ros::encode(message, bytes);
     writer.write(std::move(bytes));
   };
-  // A robot reads one of both types.
-  if (twist_stamped_->readers() > 0) {
+  // A robot reads one of both types. One that reads both takes them for commands of two programs.
+  if (twist_->readers() > 0 || twist_stamped_->readers() == 0) {
+    write(*twist_, twist);
+  } else {
     write(*twist_stamped_, ros::TwistStamped{{timeOf(step_ns_), base_frame_}, twist});
   }
-  if (twist_->readers() > 0 || twist_stamped_->readers() == 0) write(*twist_, twist);
 }
 
 void Ros2Hardware::takeReadings() {
