@@ -99,7 +99,7 @@ void driveRos2Robot(const RobotArguments& arguments) {
   if (arguments.robot_type.empty()) {
     throw ConfigError(
         "--ros2 needs --robot-type, of which the limits and the places of sensors are, as in "
-        "--robot-type p3dx; robosim robots lists them");
+        "--robot-type p3dx; the types are the files of worlds/robots/");
   }
   const Interrupt interrupt;
   dds::Options dds;
