@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "remote/remote_control_robot.h"
 #include "remote/remote_port.h"
 #include "robosim/connection.h"
+#include "robosim/ros2_arguments.h"
 
 namespace CLI {
 class App;
@@ -32,10 +32,8 @@ struct RobotArguments {
   std::string arcos;  ///< channel to a robot that speaks ARCOS, as openChannel(); empty: a robot of a served world
   std::string ros2;   ///< namespace of a robot that speaks ROS 2, "/" for none; empty: another robot
   std::vector<std::string> ros2_topics;  ///< "scan=/base_scan"
-  std::optional<int> ros2_domain;        ///< nullopt: ROS_DOMAIN_ID, or 0
-  std::string ros2_interface;
-  std::vector<std::string> ros2_peers;
-  std::string robot_type;  ///< of a real robot; empty: what a robot that speaks ARCOS reports
+  Ros2Arguments ros2_network;            ///< domain, interface and peers
+  std::string robot_type;                ///< of a real robot; empty: what a robot that speaks ARCOS reports
   std::string arcos_log;
   std::string laser;  ///< serial device of an LMS200; empty: none
   std::string record;

@@ -55,7 +55,7 @@ Ros2Hardware::Options ros2HardwareOptions(const RobotArguments& arguments, const
     options.name = options.prefix.substr(options.prefix.rfind('/') + 1);
   }
   options.topics = topicsOf(arguments.ros2_topics);
-  options.where = "domain " + std::to_string(arguments.ros2_domain.value_or(0));
+  options.where = "domain " + std::to_string(ros2Domain(arguments.ros2_network));
   options.log = logRobot;
   options.interrupted = [&interrupt] { return interrupt.isRequested(); };
   return options;
@@ -80,13 +80,15 @@ void addRos2RobotOptions(CLI::App& command, RobotArguments& arguments) {
       ->allow_extra_args(false)
       ->group(kRealRobotGroup);
   dependsOn(command.get_option("--ros2-topic"), ros2);
-  command.add_option("--domain", arguments.ros2_domain, "domain of ROS 2, [0, 232]; default: ROS_DOMAIN_ID, or 0")
+  command
+      .add_option("--domain", arguments.ros2_network.domain, "domain of ROS 2, [0, 232]; default: ROS_DOMAIN_ID, or 0")
       ->type_name("NUMBER");
   command
-      .add_option("--ros2-interface", arguments.ros2_interface,
+      .add_option("--ros2-interface", arguments.ros2_network.interface,
                   "name or address of the network interface by which the robot is found; default: this machine only")
       ->type_name("NAME|ADDRESS");
-  command.add_option("--ros2-peer", arguments.ros2_peers, "address of the robot, for networks without multicast")
+  command
+      .add_option("--ros2-peer", arguments.ros2_network.peers, "address of the robot, for networks without multicast")
       ->allow_extra_args(false)
       ->type_name("ADDRESS");
   for (const char* name : {"--domain", "--ros2-interface", "--ros2-peer"}) {
@@ -103,9 +105,9 @@ void driveRos2Robot(const RobotArguments& arguments) {
   }
   const Interrupt interrupt;
   dds::Options dds;
-  dds.domain = arguments.ros2_domain.value_or(0);
-  dds.interface = arguments.ros2_interface;
-  dds.peers = arguments.ros2_peers;
+  dds.domain = ros2Domain(arguments.ros2_network);
+  dds.interface = arguments.ros2_network.interface;
+  dds.peers = arguments.ros2_network.peers;
   dds.log = logRobot;
   const std::shared_ptr<dds::Participant> participant = joinDds(dds);
   Ros2Hardware robot(participant, ros2HardwareOptions(arguments, interrupt));

@@ -101,7 +101,7 @@ class Indexing {
   }
 
   void addTransforms(const std::string& topic, const BagMessage& message) {
-    BagFrames& frames = framesOf(namespaceOf(topic));
+    FrameTree& frames = framesOf(namespaceOf(topic));
     const bool is_static = lastPartOf(topic) == "tf_static";
     for (const auto& transform : ros::decode<ros::TFMessage>(message.data).transforms) {
       const std::int64_t stamp_ns = nanosecondsOf(transform.header.stamp);
@@ -109,8 +109,8 @@ class Indexing {
     }
   }
 
-  BagFrames& framesOf(const std::string& in) {
-    BagFrames*& frames = frames_[in];
+  FrameTree& framesOf(const std::string& in) {
+    FrameTree*& frames = frames_[in];
     if (!frames) frames = &index_.frames.emplace_back();
     return *frames;
   }
@@ -173,7 +173,7 @@ class Indexing {
         const bool is_better = !chosen || (lastPartOf(channel.topic) == "odom" && lastPartOf(chosen->topic) != "odom");
         if (is_better) chosen = &channel;
       }
-      const BagFrames* const frames = framesOfRobot(robot);
+      const FrameTree* const frames = framesOfRobot(robot);
       const std::string base = baseOf(robot, *frames, chosen ? childOf(*chosen) : "");
       const std::string label = Label{robot, "odometry", ""}.text();
       for (auto& channel : index_.channels) {
@@ -197,13 +197,13 @@ class Indexing {
     return topics_[of_channel_[static_cast<std::size_t>(&channel - index_.channels.data())]].child_frame;
   }
 
-  const BagFrames* framesOfRobot(const std::string& robot) {
+  const FrameTree* framesOfRobot(const std::string& robot) {
     const auto own = frames_.find(robot);
     return own != frames_.end() && !own->second->isEmpty() ? own->second : &framesOf("");
   }
 
   /// The robot's frame; empty if it is not known.
-  static std::string baseOf(const std::string& robot, const BagFrames& frames, const std::string& of_odometry) {
+  static std::string baseOf(const std::string& robot, const FrameTree& frames, const std::string& of_odometry) {
     for (const auto& frame : {of_odometry, robot + "/base_link", robot + "/base_footprint", std::string("base_link"),
                               std::string("base_footprint")}) {
       if (!frame.empty() && frames.contains(frame)) return frame;
@@ -211,7 +211,7 @@ class Indexing {
     return of_odometry;
   }
 
-  void addOdometryOfTransforms(const std::string& label, const std::string& base, const BagFrames& frames) {
+  void addOdometryOfTransforms(const std::string& label, const std::string& base, const FrameTree& frames) {
     constexpr int kHighest = 64;  // more is a cycle
     std::string frame = base;
     for (int height = 0; height < kHighest && !frame.empty(); ++height) {
@@ -335,7 +335,7 @@ class Indexing {
   BagIndex index_;
   std::vector<ScannedTopic> topics_;  ///< as Bag::topics()
   std::vector<Found> found_;
-  std::map<std::string, BagFrames*> frames_;  ///< by the namespace of their topics
+  std::map<std::string, FrameTree*> frames_;  ///< by the namespace of their topics
   std::vector<std::size_t> of_channel_;       ///< topic of each channel
   std::set<std::string> robots_;
 };

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bags/bag.h"
-#include "recording/bag/bag_frames.h"
 #include "recording/bag/bag_observations.h"
+#include "topics/frame_tree.h"
 
 namespace robosim {
 
@@ -16,7 +16,7 @@ struct BagChannel {
   std::uint64_t messages = 0;
   BagSensor sensor;                   ///< without the pose
   bool is_part = false;               ///< of an observation with all channels of the label and time
-  const BagFrames* frames = nullptr;  ///< of the robot
+  const FrameTree* frames = nullptr;  ///< of the robot
   std::string base;                   ///< the robot's frame
   std::string odometry_frame;         ///< the frame whose poses are the odometry; empty for a topic
 };
@@ -30,7 +30,7 @@ struct BagEntry {
 
 /// What a recording contains, in the order in which it is read.
 struct BagIndex {
-  std::deque<BagFrames> frames;  ///< of each namespace
+  std::deque<FrameTree> frames;  ///< of each namespace
   std::vector<BagChannel> channels;
   std::vector<BagEntry> entries;                 ///< by time, then channel, then the order of the recording
   std::vector<std::string> unread, assumptions;  ///< as ReadReport has them

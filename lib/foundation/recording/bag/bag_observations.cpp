@@ -15,12 +15,12 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include "base/label.h"
-#include "recording/bag/bag_frames.h"
 #include "recording/bag/bag_picture.h"
 #include "recording/codecs.h"
 #include "recording/cone_aperture.h"
 #include "recording/echo_ranges.h"
 #include "ros/cdr.h"
+#include "topics/frame_tree.h"
 
 namespace robosim {
 namespace {

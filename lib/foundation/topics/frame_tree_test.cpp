@@ -1,4 +1,4 @@
-#include "recording/bag/bag_frames.h"
+#include "topics/frame_tree.h"
 
 #include <cmath>
 #include <limits>
@@ -13,15 +13,15 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 /// x and y of a frame; NaN for an unknown one.
-std::pair<double, double> at(const BagFrames& frames, const std::string& in, const std::string& frame,
+std::pair<double, double> at(const FrameTree& frames, const std::string& in, const std::string& frame,
                              double time_s = 0) {
   const auto pose = frames.find(in, frame, static_cast<std::int64_t>(time_s * 1e9));
   return pose ? std::pair(pose->x(), pose->y()) : std::pair<double, double>(NAN, NAN);
 }
 using XY = std::pair<double, double>;
 
-TEST(BagFrames, ComposesTheTransformsOfAChain) {
-  BagFrames frames;
+TEST(FrameTree, ComposesTheTransformsOfAChain) {
+  FrameTree frames;
   ros::TransformStamped turned = transformAt(0, "base_link", "mast", 0.5);
   turned.transform.rotation = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};  // 90° about z
   frames.add(turned, 0, true);
@@ -33,8 +33,8 @@ TEST(BagFrames, ComposesTheTransformsOfAChain) {
   EXPECT_DOUBLE_EQ(pose->yaw(), M_PI / 2);
 }
 
-TEST(BagFrames, FindsFramesBelowACommonOne) {
-  BagFrames frames;
+TEST(FrameTree, FindsFramesBelowACommonOne) {
+  FrameTree frames;
   frames.add(transformAt(0, "base_footprint", "base_link", 1), 0, true);
   frames.add(transformAt(0, "base_footprint", "laser", 3, 2), 0, true);
   EXPECT_EQ(at(frames, "base_link", "laser"), XY(2, 2));
@@ -43,8 +43,8 @@ TEST(BagFrames, FindsFramesBelowACommonOne) {
   EXPECT_EQ(at(frames, "laser", "laser"), XY(0, 0));
 }
 
-TEST(BagFrames, UsesTheLatestTransformThatIsNotLater) {
-  BagFrames frames;
+TEST(FrameTree, UsesTheLatestTransformThatIsNotLater) {
+  FrameTree frames;
   for (const int second : {2, 1, 3}) frames.add(transformAt(second, "/base", "/head", second), second * kSecond, false);
   frames.sort();
   EXPECT_EQ(at(frames, "base", "head", 2.5), XY(2, 0));
@@ -55,14 +55,14 @@ TEST(BagFrames, UsesTheLatestTransformThatIsNotLater) {
   EXPECT_EQ(at(frames, "base", "head", 3), XY(7, 0)) << "a static one is valid at all times";
 }
 
-TEST(BagFrames, DoesNotRepeatPoses) {
-  BagFrames frames;
+TEST(FrameTree, DoesNotRepeatPoses) {
+  FrameTree frames;
   for (const int second : {1, 2, 3}) frames.add(transformAt(second, "base", "wheel", 1), second * kSecond, false);
   EXPECT_EQ(frames.posesOf("wheel").size(), 1u);
 }
 
-TEST(BagFrames, DoesNotFindWhatTransformsDoNotConnect) {
-  BagFrames frames;
+TEST(FrameTree, DoesNotFindWhatTransformsDoNotConnect) {
+  FrameTree frames;
   frames.add(transformAt(0, "base", "laser", 1), 0, true);
   frames.add(transformAt(0, "other", "camera", 1), 0, true);
   EXPECT_FALSE(frames.find("base", "camera", 0));
@@ -71,8 +71,8 @@ TEST(BagFrames, DoesNotFindWhatTransformsDoNotConnect) {
   EXPECT_FALSE(frames.contains("unknown"));
 }
 
-TEST(BagFrames, EndsInACycleAndLeavesOutWhatIsNotFinite) {
-  BagFrames frames;
+TEST(FrameTree, EndsInACycleAndLeavesOutWhatIsNotFinite) {
+  FrameTree frames;
   frames.add(transformAt(0, "a", "b", 1), 0, true);
   frames.add(transformAt(0, "b", "a", 1), 0, true);
   EXPECT_FALSE(frames.find("a", "c", 0));
@@ -81,7 +81,7 @@ TEST(BagFrames, EndsInACycleAndLeavesOutWhatIsNotFinite) {
   EXPECT_FALSE(frames.contains("n"));
 }
 
-TEST(BagFrames, TakesARotationOfLength0ForNone) { EXPECT_EQ(toPose(ros::Vector3{1, 2, 3}, {0, 0, 0, 0}).yaw(), 0); }
+TEST(FrameTree, TakesARotationOfLength0ForNone) { EXPECT_EQ(toPose(ros::Vector3{1, 2, 3}, {0, 0, 0, 0}).yaw(), 0); }
 
 }  // namespace
 }  // namespace robosim
