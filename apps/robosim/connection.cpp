@@ -158,7 +158,7 @@ void addListenerOptions(CLI::App& command, ListenerArguments& a) {
   command
       .add_option("--tokens", a.tokens,
                   "permitted clients: one line 'TOKEN ROLE [name=NAME] [expires=2027-01-31]' each, where ROLE is "
-                  "viewer, robot ROBOT..., geometry or operator; reloaded when it changes, and at SIGHUP")
+                  "viewer, robot ROBOT..., geometry, operator or supervisor; reloaded when it changes, and at SIGHUP")
       ->type_name("FILE")
       ->check(fileName());
   command.add_flag("--listen-unprotected", a.unprotected,

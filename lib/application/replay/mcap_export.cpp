@@ -109,7 +109,7 @@ class McapSteps {
       ++index;
     }
     for (const auto& message : topics_->of(objects_, notes, winner, time_ns)) mcap_->write(message);
-    mcap_->writeClock(time_ns);
+    mcap_->endStep(time_ns);
   }
 
   void noteChange(const std::string& comment, std::vector<std::string>& notes) {

@@ -161,10 +161,9 @@ class RunAgain {
   }
   /// The recorded controller of each robot.
   static LoadedWorld worldWithControllers(const WorldSource& source, const RunNote& note) {
-    const auto is_driven_elsewhere = [&](const FleetRobot&, std::size_t i) {
-      return i < note.controllers.size() && note.controllers[i].empty();
-    };
-    LoadedWorld world = loadWorldToRun(source, "", is_driven_elsewhere);
+    // The world's own controllers do not run, and may need sensors that the robots do not have.
+    const auto is_any = [](const FleetRobot&, std::size_t) { return true; };
+    LoadedWorld world = loadWorldToRun(source, "", is_any);
     auto& robots = world.fleet.robots;
     if (note.controllers.size() != robots.size()) {
       throw ConfigError(source.file + ": has " + std::to_string(robots.size()) + " robots, and the recording " +

@@ -57,12 +57,31 @@ TEST(AddedRobotsInARun, AreRefusedForAnImpossibleController) {
   added.controller = "wonder";
   EXPECT_NE(applyTo(run, added).find("wonder"), std::string::npos);
   added = {"B", "pioneer3dx_camera", {-3, 3, 0}, "still"};
-  EXPECT_TRUE(applyTo(run, added).starts_with("the run renders no pictures")) << applyTo(run, added);
+  EXPECT_TRUE(applyTo(run, added).starts_with("no robot had a camera at the start")) << applyTo(run, added);
   RunOptions options;
   options.check_added = [](const FleetRobot& robot) { return robot.info.name + " not now"; };
   LocalRun closed(oneScout(), options);
   EXPECT_EQ(applyTo(closed, wanderer("B", -3)), "B not now");
   EXPECT_EQ(run.environment().robotCount(), 1u);
+}
+
+TEST(AddedRobotsInARun, OfAWorldFileThatTheRunDoesNotAllowAreRefusedBeforeIt) {
+  const std::string adds = "<at time='5'><add><robot model='scout' name='B' x='3' y='3'/></add></at>";
+  RunOptions options;
+  options.check_added = [](const FleetRobot&) { return "no room in the recording"; };
+  try {
+    LocalRun(oneScout(adds), options);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "the world adds the robot 'B' during the run: no room in the recording");
+  }
+  // Whether pictures are taken does not matter.
+  for (const bool takes_pictures : {false, true}) {
+    options = {};
+    options.takes_pictures = takes_pictures;
+    const std::string camera = "<at time='5'><add><robot model='pioneer3dx_camera' name='B' x='3' y='3'/></add></at>";
+    EXPECT_THROW(LocalRun(oneScout(camera), options), ConfigError);
+  }
 }
 
 TEST(AddedRobotsInARun, OfAWorldFileGiveTheSameDigestForAnyNumberOfThreads) {

@@ -155,6 +155,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     : options_(options),
       images_(imagesFor(world.world, world.fleet, options)),
       selected_images_(options.pictures_on_request ? static_cast<SelectedImages*>(images_.get()) : nullptr),
+      had_camera_(hasCamera(world.fleet)),
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log, options.observers_supervise) {
@@ -164,6 +165,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     }
   }
   allowAdditions();
+  checkTimeline();
   if (readPictures(options.observers)) takePictures(std::vector<std::uint8_t>(environment_.robotCount(), 1));
   observe();
 }
@@ -172,6 +174,7 @@ LocalRun::LocalRun(ForkOf original)
     : options_(original.run.options_),
       images_(original.run.images_),
       selected_images_(original.run.selected_images_),
+      had_camera_(original.run.had_camera_),
       environment_(original.run.environment_.model(), original.run.environment_.state(), options_.environment.threads,
                    images_.get()),
       workers_(options_.environment.threads),
@@ -221,6 +224,17 @@ void LocalRun::allowAdditions() {
   });
 }
 
+void LocalRun::checkTimeline() const {
+  for (const TimedChange& timed : environment_.world().timeline) {
+    const auto* robot = std::get_if<AddRobot>(&timed.change);
+    if (!robot) continue;
+    const auto with_robot = withAdditions(*environment_.model(), environment_.state().additions.with(*robot));
+    if (const std::string fault = faultOfAdded(with_robot->fleet.robots.back()); !fault.empty()) {
+      throw ConfigError("the world adds the robot '" + robot->name + "' during the run: " + fault);
+    }
+  }
+}
+
 std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
   if (options_.check_added) {
     if (std::string fault = options_.check_added(robot); !fault.empty()) return fault;
@@ -228,10 +242,10 @@ std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
   const auto& sensors = *robot.info.sensors;
   const bool has_camera = std::any_of(sensors.begin(), sensors.end(),
                                       [](const SensorInfo& sensor) { return sensor.kind == SensorKind::camera; });
-  if (has_camera && options_.takes_pictures && !images_) {
-    return "the run renders no pictures, because no robot had a camera at its start, so that no robot with a camera "
-           "can "
-           "be added; use another robot type, or give the world a robot with a camera";
+  // Whatever is recorded or shown: that does not change a run.
+  if (has_camera && !had_camera_) {
+    return "no robot had a camera at the start of the run, so that none with a camera can be added; use another robot "
+           "type, or give the world a robot with a camera";
   }
   if (!options_.checks_added_elsewhere && options_.is_added_elsewhere && options_.is_added_elsewhere(robot)) return {};
   const std::string name = controllerOfAdded(robot);

@@ -185,6 +185,9 @@ class LocalRun {
   /// Makes the controller of a robot.
   void addRobot(std::size_t robot, const std::string& controller);
   void allowAdditions();
+  /// Whatever an option refuses is refused before the run, not in its course, which would be another run. @throws
+  /// ConfigError for a robot that the world file adds and that cannot be added
+  void checkTimeline() const;
   std::string faultOfAdded(const FleetRobot& robot) const;
   std::string controllerOfAdded(const FleetRobot& robot) const;
 
@@ -201,6 +204,7 @@ class LocalRun {
   /// By robot: whether the pictures of a step, with RunOptions::pictures_on_request, have been taken.
   std::vector<std::uint8_t> taken_;
   std::optional<std::uint64_t> taken_step_;
+  bool had_camera_;  ///< a robot, at the start
   Environment environment_;
   ParallelExecutor workers_;
   std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware

@@ -1,6 +1,7 @@
 #include "serving/topic_feed.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "run/outputs/intervention_note.h"
@@ -41,7 +42,9 @@ TopicFeed::TopicFeed(TopicOutlet& outlet, const Environment& environment)
   objects_ = indexOf({"/objects", &ros::typeOf<ros::MarkerArray>(), TopicDelivery::latched});
   interventions_ = indexOf({"/interventions", &ros::typeOf<ros::String>(), TopicDelivery::steady});
   events_ = indexOf({"/events", &ros::typeOf<ros::String>(), TopicDelivery::steady});
+  markers_topic_ = indexOf(RobotMarkers::topic());
   for (const auto& robot : environment.fleet().robots) {
+    markers_.add(robot.info);
     const RobotTopics& topics = robots_.emplace_back(robot.info);
     auto& indices = topics_of_robot_.emplace_back();
     auto& pictures = pictures_of_robot_.emplace_back();
@@ -74,6 +77,7 @@ void TopicFeed::poll() {
   outlet_.beginRound(nanosecondsOf(environment_.time().seconds()));
   sendLatched();
   sendRobots(Audience::fresh);
+  sendMarkers(Audience::fresh);
   outlet_.endRound();
 }
 
@@ -95,6 +99,7 @@ void TopicFeed::stepped() {
   }
   sendLatched();
   sendRobots(Audience::all);
+  sendMarkers(Audience::all);
   outlet_.endRound();
 }
 
@@ -125,6 +130,18 @@ void TopicFeed::sendRobots(Audience audience) {
     Sink sink(outlet_, topics_of_robot_[i], audience, nanosecondsOf(readings.time.seconds()));
     robots_[i].write(readings, state.world_from_robot[i], state.commands[i], kept, sink);
   }
+}
+
+void TopicFeed::sendMarkers(Audience audience) {
+  if (!outlet_.wants(markers_topic_, audience)) return;
+  const State& state = environment_.state();
+  std::vector<std::optional<mrpt::math::TPose2D>> poses;
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    poses.push_back(state.isAbsent(i) ? std::nullopt : std::optional(state.world_from_robot[i]));
+  }
+  const std::uint64_t time_ns = nanosecondsOf(state.time.seconds());
+  const auto message = markers_.message(poses, time_ns);
+  outlet_.send(markers_topic_, audience, time_ns, {message.begin(), message.end()}, false);
 }
 
 bool TopicFeed::isWanted(std::size_t robot, Audience audience) const {

@@ -8,6 +8,7 @@
 #include "recording/kept_readings.h"
 #include "run/outputs/world_topics.h"
 #include "serving/topic_outlet.h"
+#include "topics/robot_markers.h"
 #include "topics/robot_topics.h"
 
 namespace robosim {
@@ -34,6 +35,7 @@ class TopicFeed {
   std::size_t indexOf(const Topic& topic);
   void send(TopicMessage message, Audience audience, bool latest_only = false);
   void sendRobots(Audience audience);
+  void sendMarkers(Audience audience);
   void sendLatched();
   bool isWanted(std::size_t robot, Audience audience) const;
 
@@ -47,7 +49,9 @@ class TopicFeed {
   std::vector<KeptReadings> kept_;
   std::vector<std::uint8_t> was_absent_;  ///< by robot
   WorldTopics world_;
-  std::size_t clock_ = 0, static_transforms_ = 0, map_ = 0, objects_ = 0, interventions_ = 0, events_ = 0;
+  RobotMarkers markers_;
+  std::size_t markers_topic_ = 0, clock_ = 0, static_transforms_ = 0, map_ = 0, objects_ = 0, interventions_ = 0,
+              events_ = 0;
 };
 
 }  // namespace robosim

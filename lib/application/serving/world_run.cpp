@@ -1,5 +1,6 @@
 #include "serving/world_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -36,6 +37,16 @@ std::string whyNoneIsForArcos(const WorldRunOptions& options) {
 /// Whether ARCOS programs drive a robot that is added to the run: other ones would need a port.
 bool isAddedForArcos(const FleetRobot& robot, const WorldRunOptions& options) {
   return options.arcos && options.arcos->isFactory() && isDrivenByArcos(robot, options);
+}
+
+/// @throws ConfigError when ARCOS programs cannot drive robots of the factory's type
+void requireArcosType(const Fleet& fleet, const ArcosOptions& options) {
+  const auto kind = std::find_if(fleet.robots.begin(), fleet.robots.end(),
+                                 [&](const FleetRobot& robot) { return robot.info.model == options.factory; });
+  if (kind != fleet.robots.end() && kind->model->arcos) return;
+  throw ConfigError("--arcos-factory " + options.factory +
+                    ": ARCOS programs cannot drive robots of this type, which has no <arcos>; use another one, such as "
+                    "p3dx");
 }
 
 /// By robot: whether ARCOS programs drive it.
@@ -359,6 +370,7 @@ std::shared_ptr<WorldRun::OneRun> WorldRun::load(WorldSource source, int number)
     return isDrivenByArcos(robot, options_) || isNetworked(robot, options_);
   };
   LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller, is_elsewhere);
+  if (options_.arcos && options_.arcos->isFactory()) requireArcosType(world.fleet, *options_.arcos);
   return std::make_shared<OneRun>(std::move(world), source, options_, std::move(of_this_run));
 }
 

@@ -43,6 +43,7 @@ McapRecording::McapRecording(const std::filesystem::path& file, std::span<const 
   // rosbag2 reads the numbers of offeredQos() only in files with this record, whose content may be empty.
   writer_.addMetadata({"rosbag2", {{"serialized_metadata", ""}}});
   rawlog_ = channelOf({kRawlogTopic, &ros::typeOf<ros::UInt8MultiArray>(), TopicDelivery::steady});
+  markers_channel_ = channelOf(RobotMarkers::topic());
   clock_ = channelOf({"/clock", &ros::typeOf<ros::Clock>(), TopicDelivery::steady});
   try {
     for (const auto& robot : robots) addTopics(robot);
@@ -56,6 +57,8 @@ McapRecording::McapRecording(const std::filesystem::path& file, std::span<const 
 void McapRecording::addTopics(const RobotInfo& robot) {
   const RobotTopics& topics = topics_.emplace_back(robot);
   auto& channels = channels_of_robot_.emplace_back();
+  markers_.add(robot);
+  poses_.resize(markers_.size());
   for (const auto& topic : topics.topics()) channels.push_back(channelOf(topic));
 }
 
@@ -102,7 +105,9 @@ void McapRecording::writeRawlog(std::span<const std::uint8_t> bytes, std::uint64
   writer_.endMessage();
 }
 
-void McapRecording::writeClock(std::uint64_t time_ns) {
+void McapRecording::endStep(std::uint64_t time_ns) {
+  if (has_poses_) writer_.write(markers_channel_, time_ns, markers_.message(poses_, time_ns));
+  poses_.assign(markers_.size(), std::nullopt);
   ros::encode(ros::Clock{timeOf(time_ns)}, writer_.beginMessage(clock_, time_ns));
   writer_.endMessage();
 }
@@ -111,6 +116,8 @@ void McapRecording::write(std::size_t robot, const Readings& readings,
                           const std::optional<mrpt::math::TPose2D>& world_from_robot,
                           const std::optional<Command>& command, std::span<const std::uint8_t> kept) {
   ChannelSink sink(writer_, channels_of_robot_[robot], nanosecondsOf(readings.time.seconds()));
+  poses_[robot] = world_from_robot;
+  has_poses_ |= world_from_robot.has_value();
   topics_[robot].write(readings, world_from_robot, command, kept, sink);
 }
 

@@ -14,6 +14,7 @@
 #include "hardware/robot_info.h"
 #include "mcap/writer.h"
 #include "recording/recording_file.h"
+#include "topics/robot_markers.h"
 #include "topics/robot_topics.h"
 
 namespace robosim {
@@ -38,10 +39,11 @@ class McapRecording {
   void addRobot(const RobotInfo& robot, std::uint64_t time_ns);
   /// Bytes of the rawlog. @throws RecordingError as RecordingFile::write() does, as all that follow
   void writeRawlog(std::span<const std::uint8_t> bytes, std::uint64_t time_ns);
-  void writeClock(std::uint64_t time_ns);
-  /// Messages of a robot, by its index.
+  /// Messages of a robot in a step, by its index.
   void write(std::size_t robot, const Readings& readings, const std::optional<mrpt::math::TPose2D>& world_from_robot,
              const std::optional<Command>& command, std::span<const std::uint8_t> kept);
+  /// Completes a step: the robots' markers, if their poses are known, and the clock.
+  void endStep(std::uint64_t time_ns);
   void write(const TopicMessage& message);
   void attach(const mcap::Attachment& attachment) { writer_.attach(attachment); }
   void addMetadata(const mcap::Metadata& metadata) { writer_.addMetadata(metadata); }
@@ -66,7 +68,10 @@ class McapRecording {
   std::map<std::string, std::uint16_t> channels_;  ///< by topic
   std::vector<RobotTopics> topics_;
   std::vector<std::vector<std::uint16_t>> channels_of_robot_;  ///< by robot and topic
-  std::uint16_t rawlog_ = 0, clock_ = 0;
+  RobotMarkers markers_;
+  bool has_poses_ = false;                                 ///< of any robot so far: a real one's are not known
+  std::vector<std::optional<mrpt::math::TPose2D>> poses_;  ///< by robot, in this step
+  std::uint16_t rawlog_ = 0, clock_ = 0, markers_channel_ = 0;
 };
 
 }  // namespace robosim

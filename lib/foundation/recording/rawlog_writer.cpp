@@ -184,7 +184,7 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (auto& output : outputs) output->flush(kChunkBytes, time);
   if (!mcap) return;
   for (const auto& message : step.messages) mcap->write(message);
-  mcap->writeClock(nanosecondsOf(time.seconds()));
+  mcap->endStep(nanosecondsOf(time.seconds()));
 }
 
 /// @pre called by the worker thread, or while it is idle

@@ -166,6 +166,10 @@ struct Environment::Impl::ApplyChange {
     const Body before = objects()[object].body;
     std::vector<WorldObject> all = withChange(objects(), how);
     const Body& after = all[object].body;
+    if (is_checked && after.heights().z_max_m > 0 && all[object].conveyor) {
+      return inQuotes(all[object].name) + " is a belt, which is let into the floor: its top would be " +
+             fixed(after.heights().z_max_m, 3) + " m above it; make it lower";
+    }
     const bool moves = after.world_from_body != before.world_from_body || after.heights() != before.heights();
     if (moves) {
       if (auto fault = placeFault(all[object], of.bodies.bodyOf(object)); !fault.empty()) return fault;
@@ -219,6 +223,9 @@ struct Environment::Impl::ApplyChange {
 std::string Environment::Impl::apply(const Intervention& intervention, bool is_checked) {
   const std::uint64_t next_step = state.time.step + 1;
   if (is_checked) {
+    if (state.ended && !std::holds_alternative<EndRun>(intervention.change)) {
+      return "the run has ended, with the outcome " + inQuotes(state.ended->outcome) + ", and is not changed any more";
+    }
     if (std::string fault = faultOf(intervention.change); !fault.empty()) return fault;
     const auto count = std::count_if(state.interventions.begin(), state.interventions.end(), [&](const auto& applied) {
       return applied.step == next_step && applied.intervention.author == intervention.author;

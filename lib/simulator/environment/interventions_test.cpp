@@ -127,6 +127,13 @@ TEST(Interventions, KeepTheOrderOfMessagesWhenTheDelayBecomesShorter) {
   EXPECT_EQ(received, "fast slow ");
 }
 
+TEST(Interventions, AreRefusedAfterTheEndOfTheRun) {
+  const Scene2 scene;
+  EXPECT_EQ(scene.apply(EndRun{"won"}), "");
+  EXPECT_EQ(scene.apply(PlaceBody{"first", 0, 0, 0}),
+            "the run has ended, with the outcome 'won', and is not changed any more");
+}
+
 TEST(Interventions, ChangeAnObjectWhoseUndersideStays) {
   const Scene2 scene;
   const Body before = scene.environment->objects()[0].body;

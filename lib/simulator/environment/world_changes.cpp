@@ -251,11 +251,17 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   }
   WorldSource changed = source;
   changed.robot_types.clear();
+  const auto keep_type = [&](const std::string& model) {
+    const auto type = types.find(model);
+    if (type == types.end() || changed.robot_types.contains(model)) return;
+    changed.robot_types[model] = {type->second.file, textOf(type->second, changes.noise)};
+  };
   for (auto& robot : world.robots) {
     addNoise(changes.noise, robot.sensors);
-    const auto type = types.find(robot.model);
-    if (type == types.end() || changed.robot_types.contains(robot.model)) continue;
-    changed.robot_types[robot.model] = {type->second.file, textOf(type->second, changes.noise)};
+    keep_type(robot.model);
+  }
+  for (const auto& timed : world.timeline) {
+    if (const auto* robot = std::get_if<AddRobot>(&timed.change)) keep_type(robot->model);
   }
   changed.text = toXml(world);
   return changed;

@@ -253,7 +253,8 @@ struct EnvironmentServer::Impl {
   void endOnce(ServedRun& run) {
     if (std::exchange(has_run_ended, true)) return;
     run.ends(report());
-    serving.log("the run is over; waiting for a control panel to load the next world, or to stop");
+    serving.log(awaits_next_run ? "the run is over; waiting for a control panel to load the next world, or to stop"
+                                : "the run is over");
   }
 
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {

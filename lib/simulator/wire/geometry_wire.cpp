@@ -30,13 +30,13 @@ double checkedFinite(double value) {
   return value;
 }
 
-/// Calls visit(measurement, sensor) for each sensor of the robots in `range` that a replica may compute.
+/// Calls visit(robot, measurement, sensor) for each sensor of the robots in `range` that a replica may compute.
 template <typename ReadingsSpan, typename Visit>
 void forMeasurements(const Fleet& fleet, ReadingsSpan& readings, RobotRange range, const Visit& visit) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const auto& sensors = fleet.robots[i].model->sensors;
     for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
-      if (!sensors[slot]->sensesInHostProcess()) visit(readings[i].measurements[slot], sensors[slot]->info());
+      if (!sensors[slot]->sensesInHostProcess()) visit(i, readings[i].measurements[slot], sensors[slot]->info());
     }
   }
 }
@@ -93,18 +93,21 @@ void decodeInto(const internal::ReplicaState& in, State& state) {
 void encode(const Environment& environment, internal::TaskResult& out) {
   out.clear_measurements();
   forMeasurements(environment.fleet(), environment.state().readings, {out.begin(), out.end()},
-                  [&](const Measurement& m, const SensorInfo&) { encode(m, *out.add_measurements()); });
+                  [&](std::size_t, const Measurement& m, const SensorInfo&) { encode(m, *out.add_measurements()); });
 }
 
 void put(const internal::TaskResult& in, Environment& environment) {
   const auto readings = environment.phases().results().readings;
   int next = 0;
-  forMeasurements(environment.fleet(), readings, {in.begin(), in.end()}, [&](Measurement& m, const SensorInfo& sensor) {
-    if (next == in.measurements_size()) throw WireError("a result with too few measurements");
-    decode(in.measurements(next++), m);
-    const std::string fault = faultOf(std::get<Echoes>(m), sensor);
-    if (!fault.empty()) throw WireError(fault);
-  });
+  forMeasurements(environment.fleet(), readings, {in.begin(), in.end()},
+                  [&](std::size_t robot, Measurement& m, const SensorInfo& sensor) {
+                    if (next == in.measurements_size()) throw WireError("a result with too few measurements");
+                    const auto& measurement = in.measurements(next++);
+                    if (environment.state().isAbsent(robot)) return;  // its readings are blank
+                    decode(measurement, m);
+                    const std::string fault = faultOf(std::get<Echoes>(m), sensor);
+                    if (!fault.empty()) throw WireError(fault);
+                  });
   if (next != in.measurements_size()) throw WireError("a result with too many measurements");
 }
 

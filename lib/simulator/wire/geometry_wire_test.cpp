@@ -91,6 +91,16 @@ TEST(GeometryWire, RoundTripsMeasurements) {
   EXPECT_EQ(here->state().readings[1].measurements, there->state().readings[1].measurements);
 }
 
+TEST(GeometryWire, LeavesTheBlankReadingsOfAnAbsentRobot) {
+  const auto here = maze(), there = maze();
+  for (const auto& environment : {here.get(), there.get()}) environment->remove(1);
+  internal::TaskResult result = emptyResult(0, 2);
+  encode(*there, result);
+  const auto before = here->state().readings[1].measurements;
+  EXPECT_EQ(complaint([&] { put(result, *here); }), "");
+  EXPECT_EQ(here->state().readings[1].measurements, before);
+}
+
 TEST(GeometryWire, EncodesRangeSensorsOnly) {
   const auto environment = maze();
   internal::TaskResult result = emptyResult(0, 2);
