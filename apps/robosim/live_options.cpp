@@ -14,6 +14,7 @@ std::optional<Ros2Options> ros2Options(const Ros2Arguments& arguments, bool has_
   options.dds.peers = arguments.peers;
   options.dds.log = log;
   options.name_space = ros2Namespace(arguments.name_space);
+  options.frames = arguments.trees == "robot" ? FrameNames::plain : FrameNames::prefixed;
   options.join = joinDds;
   if (!options.dds.isLocal() && !arguments.is_unprotected) {
     throw ConfigError(std::string(arguments.interface.empty() ? "--ros2-peer" : "--ros2-interface") +

@@ -30,6 +30,11 @@ void addRos2Options(CLI::App& command, Ros2Arguments& a, const char* group, bool
       ->type_name("NUMBER");
   add(command.add_option("--namespace", a.name_space, "before the names of all topics but /clock, /tf and /tf_static"))
       ->type_name("NAME");
+  add(command.add_option("--ros2-tf", a.trees,
+                         "trees of frames. common: one on /tf, with the robot's name as a prefix; robot: one for each "
+                         "on /<robot>/tf, without a prefix, as Nav2 expects it"))
+      ->check(CLI::IsMember({"common", "robot"}))
+      ->capture_default_str();
   add(command.add_flag("--ros2-supervise", a.may_supervise,
                        "let ROS 2 place robots by /<robot>/initialpose, and add and remove robots and objects by "
                        "/robosim/spawn and /robosim/remove"));

@@ -16,6 +16,7 @@ struct Ros2Arguments {
   std::string name_space;
   std::string interface;
   std::vector<std::string> peers;
+  std::string trees = "common";  ///< of frames: "common" or "robot"
   bool is_unprotected = false;
   bool may_supervise = false;
 };

@@ -21,7 +21,8 @@ struct Ros2Options {
   dds::Options dds;
   /// Joins the domain; of the library that implements it.
   std::function<std::unique_ptr<dds::Participant>(const dds::Options&)> join;
-  std::string name_space;      ///< as of ros2Namespace()
+  std::string name_space;  ///< as of ros2Namespace()
+  FrameNames frames = FrameNames::prefixed;
   bool may_drive = true;       ///< any program of the domain may drive robots
   bool may_supervise = false;  ///< any program of the domain may place, add and remove robots and objects
 };

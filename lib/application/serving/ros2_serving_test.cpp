@@ -143,6 +143,24 @@ TEST_F(Ros2ServingTest, PutsANamespaceBeforeAllTopicsButThoseOfTimeAndFrames) {
   EXPECT_TRUE(domain.isRead("/team/a/robosim/spawn", ros::String::kType));
 }
 
+TEST_F(Ros2ServingTest, HasATreeOfFramesForEachRobotIfRequested) {
+  ros2.frames = FrameNames::plain;
+  ros2.name_space = "/team";
+  begin();
+  EXPECT_EQ(domain.writers.count("/tf"), 0u);
+  EXPECT_EQ(domain.writers.count("/tf_static"), 0u);
+  domain.readers["/team/Pioneer1/tf"] = 1;
+  domain.readers["/team/Scout1/tf_static"] = 1;
+  step();
+  const auto transform = ros::decode<ros::TFMessage>(domain.written["/team/Pioneer1/tf"].at(0)).transforms.at(0);
+  EXPECT_EQ(transform.header.frame_id, "odom");
+  EXPECT_EQ(transform.child_frame_id, "base_link");
+  const auto mounts = ros::decode<ros::TFMessage>(domain.written["/team/Scout1/tf_static"].at(0)).transforms;
+  ASSERT_FALSE(mounts.empty());
+  for (const auto& mount : mounts) EXPECT_EQ(mount.header.frame_id, "base_link");
+  EXPECT_EQ(domain.written.count("/team/Pioneer1/tf_static"), 0u) << "without readers";
+}
+
 TEST(Ros2Namespace, IsThatOfRos2) {
   EXPECT_EQ(ros2Namespace(""), "");
   EXPECT_EQ(ros2Namespace("/"), "");

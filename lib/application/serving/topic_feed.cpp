@@ -34,10 +34,12 @@ class TopicFeed::Sink final : public TopicSink {
   std::vector<std::uint8_t> bytes_;
 };
 
-TopicFeed::TopicFeed(TopicOutlet& outlet, const Environment& environment)
-    : outlet_(outlet), environment_(environment), world_(environment.model()) {
+TopicFeed::TopicFeed(TopicOutlet& outlet, const Environment& environment, FrameNames frames)
+    : outlet_(outlet), environment_(environment), frames_(frames), world_(environment.model()) {
   clock_ = indexOf({"/clock", &ros::typeOf<ros::Clock>(), TopicDelivery::steady});
-  static_transforms_ = indexOf({"/tf_static", &ros::typeOf<ros::TFMessage>(), TopicDelivery::latched});
+  if (frames == FrameNames::prefixed) {
+    indexOf({"/tf_static", &ros::typeOf<ros::TFMessage>(), TopicDelivery::latched});
+  }
   map_ = indexOf({"/map", &ros::typeOf<ros::OccupancyGrid>(), TopicDelivery::latched});
   objects_ = indexOf({"/objects", &ros::typeOf<ros::MarkerArray>(), TopicDelivery::latched});
   interventions_ = indexOf({"/interventions", &ros::typeOf<ros::String>(), TopicDelivery::steady});
@@ -45,7 +47,8 @@ TopicFeed::TopicFeed(TopicOutlet& outlet, const Environment& environment)
   markers_topic_ = indexOf(RobotMarkers::topic());
   for (const auto& robot : environment.fleet().robots) {
     markers_.add(robot.info);
-    const RobotTopics& topics = robots_.emplace_back(robot.info);
+    const RobotTopics& topics = robots_.emplace_back(robot.info, frames);
+    indexOf(topics.staticTopic());
     auto& indices = topics_of_robot_.emplace_back();
     auto& pictures = pictures_of_robot_.emplace_back();
     for (const auto& topic : topics.topics()) {
@@ -106,12 +109,22 @@ void TopicFeed::stepped() {
 /// The state that is not sent in each step, to those who have come since the last round.
 void TopicFeed::sendLatched() {
   const std::uint64_t time_ns = nanosecondsOf(environment_.time().seconds());
-  if (outlet_.wants(static_transforms_, Audience::fresh)) {
-    send(staticTransforms(robots_, time_ns), Audience::fresh, true);
+  if (frames_ == FrameNames::prefixed) {
+    sendMounts(robots_, time_ns);
+  } else {
+    for (const auto& robot : robots_) sendMounts({&robot, 1}, time_ns);
   }
   if (outlet_.wants(map_, Audience::fresh)) send(world_.map(time_ns), Audience::fresh, true);
   if (outlet_.wants(objects_, Audience::fresh)) {
     send(world_.objects(environment_.state().objects, time_ns), Audience::fresh, true);
+  }
+}
+
+/// Sends the poses of the sensors of robots that share a topic for them.
+void TopicFeed::sendMounts(std::span<const RobotTopics> robots, std::uint64_t time_ns) {
+  const std::string topic = robots.empty() ? "/tf_static" : robots[0].staticTopic().name;
+  if (outlet_.wants(index_of_.at(topic), Audience::fresh)) {
+    send(staticTransforms(robots, time_ns), Audience::fresh, true);
   }
 }
 

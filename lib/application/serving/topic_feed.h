@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace robosim {
 class TopicFeed {
  public:
   /// @param outlet, environment must outlive this
-  TopicFeed(TopicOutlet& outlet, const Environment& environment);
+  TopicFeed(TopicOutlet& outlet, const Environment& environment, FrameNames frames = FrameNames::prefixed);
 
   const std::vector<Topic>& topics() const { return topics_; }
   /// Passes the present state to new receivers. To be called between steps.
@@ -37,10 +38,12 @@ class TopicFeed {
   void sendRobots(Audience audience);
   void sendMarkers(Audience audience);
   void sendLatched();
+  void sendMounts(std::span<const RobotTopics> robots, std::uint64_t time_ns);
   bool isWanted(std::size_t robot, Audience audience) const;
 
   TopicOutlet& outlet_;
   const Environment& environment_;
+  FrameNames frames_;
   std::vector<Topic> topics_;
   std::map<std::string, std::size_t> index_of_;  ///< by the topic's name
   std::vector<RobotTopics> robots_;
@@ -50,8 +53,7 @@ class TopicFeed {
   std::vector<std::uint8_t> was_absent_;  ///< by robot
   WorldTopics world_;
   RobotMarkers markers_;
-  std::size_t markers_topic_ = 0, clock_ = 0, static_transforms_ = 0, map_ = 0, objects_ = 0, interventions_ = 0,
-              events_ = 0;
+  std::size_t markers_topic_ = 0, clock_ = 0, map_ = 0, objects_ = 0, interventions_ = 0, events_ = 0;
 };
 
 }  // namespace robosim

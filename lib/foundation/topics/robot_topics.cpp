@@ -171,15 +171,19 @@ TopicMessage staticTransforms(std::span<const RobotTopics> robots, std::uint64_t
     message.transforms.insert(message.transforms.end(), robot.mounts().begin(), robot.mounts().end());
   }
   for (auto& mount : message.transforms) mount.header.stamp = timeOf(time_ns);
-  return topicMessage("/tf_static", TopicDelivery::latched, time_ns, message);
+  return topicMessage(robots.empty() ? "/tf_static" : robots[0].staticTopic().name, TopicDelivery::latched, time_ns,
+                      message);
 }
 
-RobotTopics::RobotTopics(const RobotInfo& robot)
+RobotTopics::RobotTopics(const RobotInfo& robot, FrameNames frames)
     : name_(topicNamePart(robot.name)),
-      base_frame_(name_ + "/base_link"),
-      odom_frame_(name_ + "/odom"),
+      frame_prefix_(frames == FrameNames::prefixed ? name_ + "/" : ""),
+      base_frame_(frame_prefix_ + "base_link"),
+      odom_frame_(frame_prefix_ + "odom"),
       sensors_(robot.sensors) {
-  topics_.push_back({"/tf", &ros::typeOf<ros::TFMessage>(), TopicDelivery::transforms});
+  const std::string tree = frames == FrameNames::prefixed ? "" : "/" + name_;
+  topics_.push_back({tree + "/tf", &ros::typeOf<ros::TFMessage>(), TopicDelivery::transforms});
+  static_ = {tree + "/tf_static", &ros::typeOf<ros::TFMessage>(), TopicDelivery::latched};
   truth_ = addTopic("ground_truth", ros::typeOf<ros::Odometry>(), TopicDelivery::steady);
   truth_message_ = odometryTemplate("map", base_frame_);
   command_ = addTopic("cmd_vel", ros::typeOf<ros::Twist>(), TopicDelivery::steady);
@@ -239,7 +243,7 @@ void RobotTopics::addSensor(const SensorInfo& sensor) {
   SensorMessages made;
   const std::string part = topicOf(sensor);
   made.topic = topics_.size();
-  made.frame = name_ + "/" + topicNamePart(sensor.label);
+  made.frame = frame_prefix_ + topicNamePart(sensor.label);
   if (!sensor.beams.empty()) made.robot_from_frame = sensor.beams[0].robot_from_beam;
   switch (sensor.kind) {
     case SensorKind::sonar:

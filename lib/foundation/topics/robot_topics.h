@@ -36,17 +36,25 @@ class TopicSink {
   }
 };
 
+/// How the frames of several robots differ.
+enum class FrameNames {
+  prefixed,  ///< "<robot>/odom", in one tree on /tf and /tf_static
+  plain,     ///< "odom", in a tree for each robot on /<robot>/tf and /<robot>/tf_static, as Nav2 expects it
+};
+
 /// The topics of a robot, below "/<robot>/", and their messages of a step (doc/ros2.md). Frames are "<robot>/odom",
-/// "<robot>/base_link" and "<robot>/<sensor>" (REP 105); ranges follow REP 117.
+/// "<robot>/base_link" and "<robot>/<sensor>" (REP 105), or without the prefix; ranges follow REP 117.
 class RobotTopics {
  public:
-  explicit RobotTopics(const RobotInfo& robot);
+  explicit RobotTopics(const RobotInfo& robot, FrameNames frames = FrameNames::prefixed);
 
   const std::vector<Topic>& topics() const { return topics_; }
   /// Poses of the sensors that do not pan in the robot's frame, for /tf_static.
   const std::vector<ros::TransformStamped>& mounts() const { return mounts_; }
-  /// Index of /tf in topics(), which all robots have in common.
+  /// Index of /tf in topics(), which all robots have in common if frames are prefixed.
   std::size_t transformTopic() const { return transform_; }
+  /// The topic of mounts().
+  const Topic& staticTopic() const { return static_; }
 
   /// Passes the messages of a step to the sink; none of a sensor that keeps its reading.
   /// @param kept by sensor: whether it does; of no sensor beyond its end
@@ -78,9 +86,10 @@ class RobotTopics {
   void addMount(const std::string& frame, const mrpt::math::TPose3D& pose);
   void makeTransformMessage();
 
-  std::string name_, base_frame_, odom_frame_;
+  std::string name_, frame_prefix_, base_frame_, odom_frame_;
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
   std::vector<Topic> topics_;
+  Topic static_;
   std::vector<ros::TransformStamped> mounts_;
   std::vector<SensorMessages> of_sensor_;
   std::size_t transform_ = 0, truth_ = 0, command_ = 0, inbox_ = 0;
@@ -90,7 +99,8 @@ class RobotTopics {
   std::vector<double> numbers_;  ///< reused
 };
 
-/// The message of /tf_static: poses of the sensors of robots. Without transforms if there are none.
+/// The message of /tf_static, or of /<robot>/tf_static of a single robot with plain frames: poses of the sensors of
+/// robots. Without transforms if there are none.
 TopicMessage staticTransforms(std::span<const RobotTopics> robots, std::uint64_t time_ns);
 
 /// The pose of a body in plan.
