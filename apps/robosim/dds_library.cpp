@@ -1,12 +1,13 @@
 #include "robosim/dds_library.h"
 
 #include "base/error_list.h"
+#include "dds/cyclone/cyclone_participant.h"
 #include "robosim/loaded_function.h"
 
 namespace robosim {
 
 std::unique_ptr<dds::Participant> joinDds(const dds::Options& options) {
-  using Join = dds::Participant* (*)(const dds::Options&);  // robosimJoinDds() of dds/cyclone
+  using Join = decltype(&robosimJoinDds);
   Join join = nullptr;
   try {
     join = loadedFunction<Join>("librobosim-dds.so." ROBOSIM_SOVERSION, "robosimJoinDds");

@@ -239,13 +239,13 @@ TEST_F(Ros2ServingTest, AddsARobotWithItsTopicsAndRemovesIt) {
 
 TEST_F(Ros2ServingTest, LogsChangesThatAreRefused) {
   begin();
-  domain.send("/robosim/remove", ros::String{"Nobody"});
+  domain.send("/robosim/remove", ros::String{"Unknown"});
   domain.send("/robosim/spawn", ros::String{"<robot"});
   poll();
   EXPECT_NE(log.find("of ROS 2 has no effect: "), std::string::npos) << log;
   EXPECT_NE(log.find("/robosim/spawn of ROS 2 has no effect: "), std::string::npos) << log;
   EXPECT_TRUE(run.environment().state().interventions.empty());
-  for (std::size_t i = 0; i < Ros2Changes::kMaxWaiting + 1; ++i) domain.send("/robosim/remove", ros::String{"Nobody"});
+  for (std::size_t i = 0; i < Ros2Changes::kMaxWaiting + 1; ++i) domain.send("/robosim/remove", ros::String{"Unknown"});
   EXPECT_NE(log.find("a change of ROS 2 is dropped: 64 already wait"), std::string::npos) << log;
 }
 
