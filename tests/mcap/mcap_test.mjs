@@ -103,6 +103,21 @@ test('a recorded file has the world, the seed and the digest', async () => {
   assert.match(robosim('replay', inFolder('run.mcap'), '--check', inFolder('world.xml')), /[Tt]he same/);
 });
 
+test('the index has the topics and the outcome', async () => {
+  const index = JSON.parse(robosim('replay', inFolder('run.mcap'), '--index', '--json'));
+  const reader = await openIndexed(inFolder('run.mcap'));
+  const counts = Object.fromEntries([...reader.channelsById.values()].map(({ id, topic }) =>
+    [topic, Number(reader.statistics.channelMessageCounts.get(id) ?? 0n)]));
+  assert.deepEqual(Object.fromEntries(index.topics.map(({ topic, count }) => [topic, count])), counts);
+  assert.equal(index.messages, Number(reader.statistics.messageCount));
+  assert.equal(index.duration_s, (STEPS - 1) / 10);
+  const scan = index.topics.find(({ topic }) => topic === '/Scout1/odom');
+  assert.deepEqual(scan, { topic: '/Scout1/odom', type: 'nav_msgs/msg/Odometry', count: STEPS, rate_hz: 10 });
+  assert.equal(index.metadata.robosim.seed, '7');
+  assert.equal(index.attachments[0].name, 'small_maze.xml');
+  assert.match(robosim('replay', inFolder('run.mcap'), '--index'), new RegExp(`digest ${index.metadata.robosim_outcome.digest}`));
+});
+
 test('the definitions are those of ROS 2', async () => {
   const reader = await openIndexed(inFolder('run.mcap'));
   const withoutConstants = (definitions) => definitions.filter((field) => !field.isConstant)

@@ -213,6 +213,19 @@ TEST(Replay, PrintsEveryValueInFullAsCommaSeparatedValues) {
   EXPECT_NE(refusalOf("replay --csv " + quoted(folder / "run.rawlog")).find("--print"), std::string::npos);
 }
 
+TEST(Replay, NeedsAnIndexToPrintIt) {
+  const auto folder = emptyFolder();
+  recordRun("worlds/small_maze.xml --time 1", folder / "run.rawlog");
+  EXPECT_NE(refusalOf("replay --index " + quoted(folder / "run.rawlog"))
+                .find("--index reads the index of an .mcap file; omit it to read the whole recording"),
+            std::string::npos);
+  recordRun("worlds/small_maze.xml --time 1", folder / "run.mcap");
+  std::filesystem::resize_file(folder / "run.mcap", std::filesystem::file_size(folder / "run.mcap") - 1);
+  EXPECT_NE(refusalOf("replay --index " + quoted(folder / "run.mcap"))
+                .find("has no index with statistics, as a file that is cut off; omit --index"),
+            std::string::npos);
+}
+
 TEST(Replay, WritesTheTruePathOfOneRobotOnly) {
   const auto folder = emptyFolder();
   recordRun("worlds/small_maze.xml --time 1", folder / "run.rawlog");

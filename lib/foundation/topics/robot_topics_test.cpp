@@ -205,6 +205,45 @@ TEST_F(RobotTopicsTest, PublishesTruthCommandAndMessages) {
   EXPECT_EQ(messages.at<ros::String>("/Ann_2/messages").data, R"({"from":"Bob","text":"GOLD \"1\""})");
 }
 
+TEST_F(RobotTopicsTest, WritesNothingOfTheStepBefore) {
+  auto sonar = rangesAt(SensorKind::sonar, "sonar", {0, 1});
+  auto laser = rangesAt(SensorKind::laser, "laser", {-0.5, 0, 0.5});
+  laser.pans = true;
+  auto air = sensorOf(SensorKind::values, "air");
+  air.quantities = {{"co2", "ppm"}, {"count", ""}};
+  auto camera = sensorOf(SensorKind::camera, "camera");
+  camera.camera = {200, 100, 1, 5};
+  const std::vector<SensorInfo> sensors{sonar,
+                                        laser,
+                                        sensorOf(SensorKind::odometry, "odometry"),
+                                        sensorOf(SensorKind::battery, "battery"),
+                                        sensorOf(SensorKind::compass, "compass"),
+                                        sensorOf(SensorKind::bumper, "bumper"),
+                                        air,
+                                        camera};
+  const std::vector<Measurement> second{echoesAt({5, 3}),  echoesAt({3, 2, 1}), Odometry{{-1, 0, 0}, 0, 0.5},
+                                        Scalar{11},        Scalar{-1},          Contacts{{1, 0, 0}},
+                                        Values{{1, 2, 3}}, Image{"J"}};
+  truth = mrpt::math::TPose2D(0, -4, 2);
+  command = Command{.speed_mps = -1};
+  const Messages expected = messagesOf(sensors, second);
+
+  messagesOf(sensors, {echoesAt({1, 2}), echoesAt({1, 2, 5}), Odometry{{1, 2, 3}, 0.5, 0}, Scalar{12}, Scalar{1},
+                       Contacts{{0, 1}}, Values{{400, 3}}, Image{"JPEG"}});
+  readings.measurements = second;
+  Messages messages(*topics);
+  topics->write(readings, truth, command, kept, messages);
+  EXPECT_EQ(messages.by_topic, expected.by_topic);
+
+  // Without the transform of the odometry, that of the laser is left.
+  kept = {0, 0, 1};
+  Messages fewer(*topics);
+  topics->write(readings, truth, command, kept, fewer);
+  const auto transforms = fewer.at<ros::TFMessage>("/tf").transforms;
+  ASSERT_EQ(transforms.size(), 1u);
+  EXPECT_EQ(transforms[0].child_frame_id, "Ann_2/laser");
+}
+
 TEST(Topic, OffersLatchedTopicsToLateReaders) {
   const Topic map{"/map", &ros::typeOf<ros::OccupancyGrid>(), TopicDelivery::latched};
   EXPECT_TRUE(map.offeredQos().starts_with("- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n"));
