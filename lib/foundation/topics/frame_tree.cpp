@@ -20,14 +20,15 @@ bool areFinite(std::initializer_list<double> numbers) {
 }  // namespace
 
 CPose3D toPose(const ros::Vector3& translation, const ros::Quaternion& rotation) {
-  const double length =
-      std::sqrt(rotation.x * rotation.x + rotation.y * rotation.y + rotation.z * rotation.z + rotation.w * rotation.w);
-  if (!(length > 0)) return CPose3D(translation.x, translation.y, translation.z, 0, 0, 0);
-  if (rotation.x == 0 && rotation.y == 0) {
+  const double scale =
+      std::max({std::abs(rotation.x), std::abs(rotation.y), std::abs(rotation.z), std::abs(rotation.w)});
+  if (!(scale > 0) || (rotation.x == 0 && rotation.y == 0)) {
     return CPose3D(translation.x, translation.y, translation.z, 2 * std::atan2(rotation.z, rotation.w), 0, 0);
   }
-  const mrpt::math::CQuaternionDouble unit(rotation.w / length, rotation.x / length, rotation.y / length,
-                                           rotation.z / length);
+  // Scaled first, because squares may overflow: MRPT ends the process for a quaternion that is not normalised.
+  const double x = rotation.x / scale, y = rotation.y / scale, z = rotation.z / scale, w = rotation.w / scale;
+  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  const mrpt::math::CQuaternionDouble unit(w / length, x / length, y / length, z / length);
   return CPose3D(unit, translation.x, translation.y, translation.z);
 }
 

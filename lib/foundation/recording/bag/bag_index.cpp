@@ -150,12 +150,13 @@ class Indexing {
 
   /// Parameters of the topic "camera_info" beside a picture's, or above it.
   std::optional<ros::CameraInfo> cameraOf(const std::string& picture) const {
-    for (std::string in = picture; !in.empty();) {
-      in.resize(std::min(in.rfind('/'), in.size()));
+    constexpr int kLevels = 2;  // of "/image_raw/compressed"
+    std::string in = picture;
+    for (int level = 0; level < kLevels && in.find('/') != std::string::npos; ++level) {
+      in.resize(in.rfind('/'));
       for (std::size_t i = 0; i < topics_.size(); ++i) {
         if (topics_[i].info && bag_.topics()[i].name == in + "/camera_info") return topics_[i].info;
       }
-      if (picture.size() - in.size() > std::string_view("/image_raw/compressed").size()) break;
     }
     return std::nullopt;
   }

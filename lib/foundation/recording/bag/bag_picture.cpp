@@ -64,9 +64,14 @@ CImage imageOf(std::uint32_t columns, std::uint32_t rows, const PixelFormat& for
   return image;
 }
 
+/// A PNG file begins with its signature and the chunk of its header. OpenCV tries a dozen formats for other files.
+constexpr std::string_view kPngBeginning("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+
 CImage decodePng(std::string_view file) {
-  constexpr std::size_t kSizeAt = 16, kHeaderEnd = 24;
-  if (file.size() < kHeaderEnd) throw std::runtime_error("a PNG file that is cut off");
+  constexpr std::size_t kSizeAt = kPngBeginning.size(), kHeaderEnd = kSizeAt + 8;
+  if (!file.starts_with(kPngBeginning) || file.size() < kHeaderEnd) {
+    throw std::runtime_error("a PNG file without its header");
+  }
   const auto number = [&](std::size_t at) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(file[at + i]);

@@ -150,7 +150,8 @@ bool containsRawlog(const std::filesystem::path& file) {
     }
     return false;
   };
-  if (reader.contents().has_summary) return has_topic();
+  // A summary may be without channels.
+  if (reader.contents().has_summary && !reader.channels().empty()) return has_topic();
   while (!has_topic() && reader.next()) {
   }
   return has_topic();
