@@ -216,7 +216,8 @@ struct Environment::Impl::ApplyChange {
   std::string unknown(const std::string& name, const std::string& what) const {
     std::vector<std::string> names = of.message_router.names();
     for (const auto& object : objects()) names.push_back(object.name);
-    return inQuotes(name) + " is not the name of " + what + didYouMean(name, names);
+    std::erase(names, name);  // of another kind
+    return inQuotes(name) + " is not the name of " + what + (name.empty() ? "" : didYouMean(name, names));
   }
 };
 
