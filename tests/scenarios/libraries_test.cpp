@@ -77,7 +77,7 @@ TEST(Libraries, OfSubcommandsWithoutNetworkIncludeNeitherGrpcNorWindows) {
 }
 
 TEST(Libraries, OfSubcommandsWithANetworkIncludeNeitherWindowsNorDrivers) {
-  EXPECT_FALSE(loads(librariesOf("robosim-net"), "glfw|nanogui|mrpt-gui|mrpt-hwdrivers|wx"));
+  EXPECT_FALSE(loads(librariesOf("robosim-net"), "glfw|nanogui|mrpt-gui|mrpt-hwdrivers|wx|ddsc"));
 }
 
 TEST(Libraries, OfWindowsAreThoseOfNanoguiAndOfNoOtherToolkit) {

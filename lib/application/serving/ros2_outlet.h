@@ -1,6 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <string>
@@ -49,6 +49,7 @@ class Ros2Outlet final : public TopicOutlet {
   dds::Participant& participant_;
   std::string name_space_;
   std::map<std::string, Sent> sent_;  ///< by the name of the topic
+  std::future<void> ending_;          ///< of writers whose topics are no longer offered
   std::vector<Sent*> of_topic_;       ///< null: not written
 };
 

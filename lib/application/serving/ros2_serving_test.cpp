@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 
 #include <gtest/gtest.h>
 
@@ -17,9 +18,13 @@ namespace {
 struct FakeDomain {
   struct FakeWriter final : dds::Writer {
     explicit FakeWriter(FakeDomain& of, std::string topic) : domain(of), name(std::move(topic)) {
+      const std::lock_guard lock(domain.mutex);
       ++domain.writers[name];
     }
-    ~FakeWriter() override { --domain.writers[name]; }
+    ~FakeWriter() override {
+      const std::lock_guard lock(domain.mutex);
+      --domain.writers[name];
+    }
     int readers() const override { return domain.readers[name]; }
     std::uint64_t arrivals() const override { return static_cast<std::uint64_t>(domain.readers[name]); }
     void write(std::vector<std::uint8_t> message) override { domain.written[name].push_back(std::move(message)); }
@@ -55,7 +60,14 @@ struct FakeDomain {
   }
   bool isRead(const std::string& topic, const char* type) const { return takers.count(topic + " " + type) > 0; }
 
-  std::map<std::string, int> writers, readers;  ///< by topic
+  int writersOf(const std::string& topic) {
+    const std::lock_guard lock(mutex);
+    return writers[topic];
+  }
+
+  std::mutex mutex;
+  std::map<std::string, int> writers;  ///< by topic; guarded by the mutex: they may end in another thread
+  std::map<std::string, int> readers;  ///< by topic
   std::map<std::string, std::vector<std::vector<std::uint8_t>>> written;
   std::map<std::string, dds::OnSample> takers;  ///< by topic and type
 };
@@ -106,9 +118,9 @@ struct Ros2ServingTest : testing::Test {
 TEST_F(Ros2ServingTest, WritesTheTopicsOfARunButCommandsOfRobots) {
   begin();
   for (const char* const topic : {"/clock", "/tf", "/tf_static", "/map", "/Pioneer1/odom", "/Scout1/sonar/range_0"}) {
-    EXPECT_EQ(domain.writers[topic], 1) << topic;
+    EXPECT_EQ(domain.writersOf(topic), 1) << topic;
   }
-  EXPECT_EQ(domain.writers.count("/Pioneer1/cmd_vel"), 0u);
+  EXPECT_EQ(domain.writersOf("/Pioneer1/cmd_vel"), 0);
   step();
   EXPECT_TRUE(domain.written.empty()) << "without readers";
   domain.readers["/clock"] = 1;
@@ -133,12 +145,25 @@ TEST_F(Ros2ServingTest, WritesTheStateForEachNewReaderOfALatchedTopic) {
   EXPECT_EQ(domain.written["/map"].size(), 3u) << "of the next run";
 }
 
+TEST_F(Ros2ServingTest, EndsTheTopicsOfTheRunBefore) {
+  LocalRun next{loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml", "still"), options};
+  begin();
+  drivers.begin(next, std::vector<std::string>(next.environment().robotCount()));
+  serving->begin(next.environment());
+  EXPECT_EQ(domain.writersOf("/clock"), 1);
+  const std::string of_next = "/" + next.environment().robotNames()[0] + "/odom";
+  EXPECT_EQ(domain.writersOf(of_next), 1);
+  serving.reset();
+  for (const auto& [topic, count] : domain.writers) EXPECT_EQ(count, 0) << topic;
+  EXPECT_TRUE(domain.takers.empty());
+}
+
 TEST_F(Ros2ServingTest, PutsANamespaceBeforeAllTopicsButThoseOfTimeAndFrames) {
   ros2.name_space = ros2Namespace("team/a");
   begin();
-  EXPECT_EQ(domain.writers["/team/a/Pioneer1/odom"], 1);
-  EXPECT_EQ(domain.writers["/clock"], 1);
-  EXPECT_EQ(domain.writers["/tf"], 1);
+  EXPECT_EQ(domain.writersOf("/team/a/Pioneer1/odom"), 1);
+  EXPECT_EQ(domain.writersOf("/clock"), 1);
+  EXPECT_EQ(domain.writersOf("/tf"), 1);
   EXPECT_TRUE(domain.isRead("/team/a/Pioneer1/cmd_vel", ros::Twist::kType));
   EXPECT_TRUE(domain.isRead("/team/a/robosim/spawn", ros::String::kType));
 }
@@ -147,8 +172,8 @@ TEST_F(Ros2ServingTest, HasATreeOfFramesForEachRobotIfRequested) {
   ros2.frames = FrameNames::plain;
   ros2.name_space = "/team";
   begin();
-  EXPECT_EQ(domain.writers.count("/tf"), 0u);
-  EXPECT_EQ(domain.writers.count("/tf_static"), 0u);
+  EXPECT_EQ(domain.writersOf("/tf"), 0);
+  EXPECT_EQ(domain.writersOf("/tf_static"), 0);
   domain.readers["/team/Pioneer1/tf"] = 1;
   domain.readers["/team/Scout1/tf_static"] = 1;
   step();
@@ -227,8 +252,8 @@ TEST_F(Ros2ServingTest, AddsARobotWithItsTopicsAndRemovesIt) {
   domain.send("/robosim/spawn", ros::String{R"(<robot name="New" model="scout" x="0" y="0"/>)"});
   poll();
   ASSERT_EQ(run.environment().robotCount(), 3u) << log;
-  EXPECT_EQ(domain.writers["/New/odom"], 1);
-  EXPECT_EQ(domain.writers["/Pioneer1/odom"], 1);
+  EXPECT_EQ(domain.writersOf("/New/odom"), 1);
+  EXPECT_EQ(domain.writersOf("/Pioneer1/odom"), 1);
   domain.send("/New/cmd_vel", ros::Twist{{0.3, 0, 0}, {}});
   EXPECT_EQ(command(2).speed_mps, 0.3);
   EXPECT_TRUE(domain.isRead("/New/initialpose", ros::PoseWithCovarianceStamped::kType));
