@@ -10,6 +10,7 @@
 
 #include "hardware/measurement_fields.h"
 #include "hardware/scan_geometry.h"
+#include "topics/message_templates.h"
 #include "topics/sensor_topics.h"
 
 namespace robosim {
@@ -19,20 +20,6 @@ using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
-
-ros::Quaternion product(const ros::Quaternion& a, const ros::Quaternion& b) {
-  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
-}
-
-/// Rotations about z, then the new y, then the new x.
-ros::Quaternion rotationOf(double yaw, double pitch, double roll) {
-  const ros::Quaternion about_z{0, 0, std::sin(yaw / 2), std::cos(yaw / 2)};
-  if (pitch == 0 && roll == 0) return about_z;
-  return product(product(about_z, {0, std::sin(pitch / 2), 0, std::cos(pitch / 2)}),
-                 {std::sin(roll / 2), 0, 0, std::cos(roll / 2)});
-}
 
 /// From a camera's frame to its optical one: z forward, x right, y down (REP 103).
 const ros::Quaternion kOpticalRotation{-0.5, 0.5, -0.5, 0.5};
@@ -58,96 +45,6 @@ std::string joined(const auto& names, const auto& text) {
 /// A one-dimensional array.
 ros::MultiArrayLayout layoutOf(const std::string& label, std::size_t size) {
   return {{{label, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(size)}}, 0};
-}
-
-/// The changing fields of a message, of which the first two are its stamp.
-constexpr std::size_t kSeconds = 0, kNanoseconds = 1, kFirst = 2;
-
-template <ros::Message M, typename... Fields>
-ros::MessageTemplate stamped(const M& message, const Fields&... changing) {
-  return ros::MessageTemplate(message, message.header.stamp.sec, message.header.stamp.nanosec, changing...);
-}
-
-/// Fields of odometryTemplate() after the stamp.
-enum OdometryField : std::size_t { kX = kFirst, kY, kRotationZ, kRotationW, kSpeed, kTurn };
-
-ros::MessageTemplate odometryTemplate(const std::string& parent, const std::string& child) {
-  ros::Odometry message;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  const auto& [position, orientation] = message.pose.pose;
-  const auto& [linear, angular] = message.twist.twist;
-  return stamped(message, position.x, position.y, orientation.z, orientation.w, linear.x, angular.z);
-}
-
-void setPose(ros::MessageTemplate& message, const TPose2D& pose) {
-  const ros::Quaternion rotation = rotationOf(pose.phi, 0, 0);
-  message.set(kX, pose.x);
-  message.set(kY, pose.y);
-  message.set(kRotationZ, rotation.z);
-  message.set(kRotationW, rotation.w);
-}
-
-/// Points in a robot's frame, of which there are none yet. Their number and bytes are before and after the last byte of
-/// the template, and its length.
-ros::MessageTemplate cloudTemplate(const std::string& frame) {
-  ros::PointCloud2 cloud;
-  cloud.header.frame_id = frame;
-  cloud.height = 1;
-  cloud.point_step = 12;
-  cloud.fields = {{"x", 0, ros::PointField::kFloat32, 1},
-                  {"y", 4, ros::PointField::kFloat32, 1},
-                  {"z", 8, ros::PointField::kFloat32, 1}};
-  cloud.is_dense = true;
-  return stamped(cloud, cloud.width, cloud.row_step);
-}
-
-/// A picture without its bytes, whose number is that of the last four.
-ros::MessageTemplate pictureTemplate(const std::string& frame) {
-  ros::CompressedImage picture;
-  picture.header.frame_id = frame;
-  picture.format = "jpeg";
-  return stamped(picture);
-}
-
-ros::MessageTemplate cameraTemplate(const CameraInfo& camera, const std::string& frame) {
-  const double focal_px = camera.focalLength();
-  const double x = camera.width_px / 2.0, y = camera.height_px / 2.0;
-  ros::CameraInfo info;
-  info.header.frame_id = frame;
-  info.height = camera.height_px;
-  info.width = camera.width_px;
-  info.distortion_model = "plumb_bob";
-  info.d = {camera.distortion.k1, camera.distortion.k2, camera.distortion.p1, camera.distortion.p2,
-            camera.distortion.k3};
-  info.k = {focal_px, 0, x, 0, focal_px, y, 0, 0, 1};
-  info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.p = {focal_px, 0, x, 0, 0, focal_px, y, 0, 0, 0, 1, 0};
-  return stamped(info);
-}
-
-ros::MessageTemplate temperatureTemplate(const std::string& frame) {
-  ros::Temperature message;
-  message.header.frame_id = frame;
-  return stamped(message, message.temperature);
-}
-
-ros::MessageTemplate batteryTemplate(const std::string& frame) {
-  ros::BatteryState battery;
-  battery.header.frame_id = frame;
-  for (float* unmeasured : {&battery.temperature, &battery.current, &battery.charge, &battery.capacity,
-                            &battery.design_capacity, &battery.percentage}) {
-    *unmeasured = kNotMeasured;
-  }
-  battery.present = true;
-  return stamped(battery, battery.voltage);
-}
-
-ros::MessageTemplate compassTemplate(const std::string& frame) {
-  ros::Imu imu;
-  imu.header.frame_id = frame;
-  imu.angular_velocity_covariance[0] = imu.linear_acceleration_covariance[0] = -1;
-  return stamped(imu, imu.orientation.z, imu.orientation.w);
 }
 
 }  // namespace
@@ -203,37 +100,22 @@ void RobotTopics::addMount(const std::string& frame, const TPose3D& pose) {
 }
 
 void RobotTopics::addRangeSensor(const SensorInfo& sensor, const std::string& part, SensorMessages& made) {
-  const auto range_min = static_cast<float>(sensor.range_min_m), range_max = static_cast<float>(sensor.range_max_m);
   const auto geometry = sensor.kind == SensorKind::laser ? toScanGeometry(sensor.beams) : std::nullopt;
   if (geometry) {
     addTopic(part, ros::typeOf<ros::LaserScan>(), TopicDelivery::sensor);
     made.robot_from_frame = geometry->robot_from_middle;
     made.is_clockwise = geometry->step_rad < 0;
-    ros::LaserScan scan;
-    scan.header.frame_id = made.frame;
-    scan.angle_min = static_cast<float>(-geometry->aperture_rad / 2);
-    scan.angle_max = static_cast<float>(geometry->aperture_rad / 2);
-    scan.angle_increment = static_cast<float>(std::abs(geometry->step_rad));
-    scan.scan_time = sensor.times.rate_hz > 0 ? static_cast<float>(1 / sensor.times.rate_hz) : 0;
-    scan.range_min = range_min;
-    scan.range_max = range_max;
-    scan.ranges.resize(sensor.beams.size());
-    made.scan_size = scan.ranges.size();
-    made.of_topic.push_back(stamped(scan, scan.ranges));
+    made.scan_size = sensor.beams.size();
+    made.of_topic.push_back(scanTemplate(sensor, *geometry, made.frame));
     return;
   }
   for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
     const std::string number = std::to_string(i);
     addTopic(part + "/range_" + number, ros::typeOf<ros::Range>(), TopicDelivery::sensor);
-    ros::Range range;
-    range.header.frame_id = made.frame + "_" + number;
-    range.radiation_type = sensor.kind == SensorKind::sonar ? ros::Range::kUltrasound : ros::Range::kInfrared;
-    range.field_of_view = static_cast<float>(sensor.beam_width_rad);
-    range.min_range = range_min;
-    range.max_range = range_max;
-    made.of_topic.push_back(stamped(range, range.range));
-    made.frames_of_beams.push_back(range.header.frame_id);
-    if (!sensor.pans) addMount(range.header.frame_id, sensor.beams[i].robot_from_beam);
+    const std::string frame = made.frame + "_" + number;
+    made.of_topic.push_back(rangeTemplate(sensor, frame));
+    made.frames_of_beams.push_back(frame);
+    if (!sensor.pans) addMount(frame, sensor.beams[i].robot_from_beam);
   }
   addTopic(part + "/points", ros::typeOf<ros::PointCloud2>(), TopicDelivery::sensor);
   made.of_topic.push_back(cloudTemplate(base_frame_));
@@ -333,7 +215,7 @@ struct RobotTopics::Encoder {
       const auto& point = echoes[i].point_m;
       points.insert(points.end(), {point.x, point.y, point.z});
     }
-    putPoints(made->topic + count, made->of_topic.back(), std::span(points));
+    putPoints(made->topic + made->frames_of_beams.size(), made->of_topic.back(), std::span(points));
   }
   void operator()(const Scalar& scalar) {
     if (made->of_topic.empty()) return;
