@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
 #include "robosim_bench/min_time.h"
 #include "robosim_bench/recorded_run.h"
@@ -50,12 +51,15 @@ void addRecordingBenchmark(CLI::App& program) {
   command->add_option("WORLD", a->run.world, "world file; default: the shipped opho2_1.xml")->type_name("FILE");
   command->add_option("--controller", a->run.controller, "controller of all robots; default: as given in the world")
       ->type_name("NAME");
-  command->add_option("--time", a->run.time_s, "maximum simulated time [s]")->capture_default_str();
+  command->add_option("--time", a->run.time_s, "maximum simulated time [s]")
+      ->check(numberIn(0.1, 1e6))
+      ->type_name("SECONDS")
+      ->capture_default_str();
   addMinTime(*command, "the run of each kind", a->min_s);
   command->add_flag("--json", a->json, "print a JSON object");
   command->footer(
-      "The same run with no recording, a rawlog and an MCAP file, which are written to memory. CPU time is that of\n"
-      "all threads.");
+      "The same run with no recording, a rawlog and an MCAP file, which are written to memory.\n"
+      "CPU time is that of all threads.");
   command->callback([a] { benchRecordings(*a); });
 }
 

@@ -1,4 +1,4 @@
-// `robosim_bench camera`, `view`, `network` and `maps` with small loads.
+// `robosim_bench camera`, `view`, `network`, `recording` and `maps` with small loads.
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -25,6 +25,14 @@ TEST(BenchCamera, ReportsPicturesPerSecondForEachSize) {
     EXPECT_GT(figures["bytes"], 500.0);
   }
   EXPECT_EQ(widths, (std::vector<int>{160, 320, 320, 640})) << "of 320 also antialiased";
+}
+
+TEST(BenchRecording, ReportsTheSameRunWithAndWithoutARecording) {
+  const Ended bench = runBenchmark("recording worlds/small_maze.xml --time 1 --min-time 1e-3 --json");
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  const json figures = json::parse(bench.out);
+  for (const char* kind : {"plain", "rawlog", "mcap"}) EXPECT_GT(figures[kind]["cpu_s"], 0.0) << kind;
+  EXPECT_GT(figures["mcap_bytes"], figures["rawlog_bytes"]) << "the same, and topics";
 }
 
 TEST(BenchNetwork, ReportsStepsPerSecondOfRobotsInOtherProcesses) {
