@@ -126,7 +126,8 @@ class SpeedBench {
     figures_.one_two = compare("two threads relative to one", {&sonar, kMany, 1}, {&sonar, kMany, 2});
     figures_.some_loaded = shown("loading 1,000 robots", [&] { return benchLoading(sonar, kSome, seed_); });
     figures_.many_loaded = shown("loading 100,000 robots", [&] { return benchLoading(sonar, kMany, seed_); });
-    figures_.small_run = shown("opho2_1 with and without recording", [&] { return benchRecording(smallRun(), min_s_); });
+    figures_.small_run =
+        shown("opho2_1 with and without recording", [&] { return benchRecording(smallRun(), min_s_); });
   }
 
   /// Measures, and shows a progress line with the subject.

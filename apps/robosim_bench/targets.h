@@ -6,8 +6,8 @@
 
 #include "robosim_bench/enki.h"
 #include "robosim_bench/rays.h"
-#include "robosim_bench/robots.h"
 #include "robosim_bench/recorded_run.h"
+#include "robosim_bench/robots.h"
 
 namespace robosim {
 

@@ -13,7 +13,7 @@ struct ReplayArguments {
   std::vector<std::string> robots;     ///< selected; empty for all
   std::vector<std::string> sensors;    ///< selected by the second part of the label; empty for all
   std::optional<double> from_s, to_s;  ///< since the recording's first observation
-  bool index = false;  ///< print only what the index of an MCAP file says
+  bool index = false;                  ///< print only what the index of an MCAP file says
   bool print = false;
   bool csv = false;                    ///< print as comma-separated values
   std::string ground_truth;            ///< output file
