@@ -191,5 +191,21 @@ TEST_F(FastDdsWire, ReceivesALargeLatchedMapLater) {
   EXPECT_TRUE(fast::decode<fast::OccupancyGrid>(*latest.get()).data == grid.data);
 }
 
+TEST_F(FastDdsWire, SendsALargeMapInFragments) {
+  fast::OccupancyGrid grid = filled<fast::OccupancyGrid>();
+  grid.data.resize(1'000'003);
+  for (std::size_t i = 0; i < grid.data.size(); ++i) grid.data[i] = static_cast<std::int8_t>(i % 101);
+  topic.delivery = TopicDelivery::latched;
+  const auto writer = peer.writer("rt/robot1/topic", fast::OccupancyGrid::kDdsType,
+                                  {.is_reliable = true, .is_transient_local = true, .depth = 1});
+  writer->write(fast::encode(grid));
+  Latest latest;
+  const auto reader = ours->read(topic, dds::Receipt::reliable, [&](const dds::Sample& sample) {
+    latest.set({sample.message.begin(), sample.message.end()});
+  });
+  ASSERT_TRUE(eventually([&] { return latest.get().has_value(); }));
+  EXPECT_TRUE(ros::decode<ros::OccupancyGrid>(*latest.get()).data == grid.data);
+}
+
 }  // namespace
 }  // namespace robosim
