@@ -16,7 +16,11 @@ Ros2Serving::Ros2Serving(const Ros2Options& options, RobotDrivers& drivers)
   if (options.may_supervise) changes_.emplace(*participant_, options.name_space, peer(), options.dds.log);
 }
 
-Ros2Serving::~Ros2Serving() = default;
+Ros2Serving::~Ros2Serving() {
+  if (const auto lost = participant_->lost(); lost > 0) {
+    options_.dds.log("ROS 2: " + std::to_string(lost) + " messages were lost");
+  }
+}
 
 void Ros2Serving::begin(const Environment& environment) {
   environment_ = &environment;

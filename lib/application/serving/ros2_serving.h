@@ -34,6 +34,7 @@ class Ros2Serving {
  public:
   /// Joins the domain. @param drivers of the runs; must outlive this @throws as Ros2Options::join
   Ros2Serving(const Ros2Options& options, RobotDrivers& drivers);
+  /// Logs how many messages were lost.
   ~Ros2Serving();
 
   /// Serves a run instead of the one before. @param environment must outlive its time here
@@ -46,8 +47,6 @@ class Ros2Serving {
   void stepped() { feed_->stepped(); }
   /// As TopicFeed
   std::vector<std::uint8_t> pictured() const { return feed_->pictured(); }
-  /// Number of messages that were dropped, because the network or a reader was too slow.
-  std::uint64_t lost() const { return participant_->lost(); }
 
  private:
   std::string peer() const;
