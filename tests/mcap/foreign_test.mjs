@@ -236,13 +236,26 @@ test('what cannot be read is refused with the reason', async () => {
   execFileSync('python3', ['-c', `import sqlite3; sqlite3.connect("${inFolder('other.db3')}").execute("CREATE TABLE a(b)")`]);
   assert.match(refusalOf(inFolder('other.db3')), /is no database of rosbag2.*no such table: topics/);
   mkdirSync(inFolder('nothing'));
-  assert.match(refusalOf(inFolder('nothing')), /is a directory without a recording of rosbag2/);
+  assert.match(refusalOf(inFolder('nothing')), /is a directory; name a file in it, or the folder of a bag of ROS 2/);
   mkdirSync(inFolder('packed'));
   writeFileSync(inFolder('packed', 'metadata.yaml'),
                 'rosbag2_bagfile_information:\n  compression_format: zstd\n  compression_mode: FILE\n  relative_file_paths:\n    - a.db3.zstd\n');
   assert.match(refusalOf(inFolder('packed')), /compressed by rosbag2 \(zstd\).*ros2 bag convert/);
   const zipped = messages.map((one) => ({ ...one, data: zstd.compress(one.data, 1) }));
   assert.match(await write('messages.mcap', zipped), /its messages are compressed by rosbag2 \(zstd\)/);
+});
+
+test('a damaged database is read up to the damage', async () => {
+  writeDatabase(inFolder('whole.db3'), messages);
+  const bytes = readFileSync(inFolder('whole.db3'));
+  writeFileSync(inFolder('damaged.db3'), Buffer.concat([
+    bytes.subarray(0, 200_000), Buffer.alloc(60_000, 0x5a), bytes.subarray(260_000)]));
+  const { status, stdout } = spawnSync(ROBOSIM, ['replay', inFolder('damaged.db3')], { encoding: 'utf8' });
+  assert.equal(status, 1);
+  assert.match(stdout, /CObservation2DRangeScan/);
+  assert.match(stdout, /damaged\.db3: ends early: database disk image is malformed/);
+  writeFileSync(inFolder('cut.db3'), bytes.subarray(0, 300_000));
+  assert.match(refusalOf(inFolder('cut.db3')), /cut\.db3: the database cannot be read: database disk image is malformed/);
 });
 
 test('a damaged message is left out and named', async () => {

@@ -26,7 +26,8 @@ std::optional<BagMessage> Bag::next() {
     BagFile& bag = *files_[file_].bag;
     if (const auto message = bag.next()) return taken(file_, *message);
     if (bag.fault().empty()) continue;
-    fault_ += (fault_.empty() ? "" : "; ") + files_[file_].path.string() + ": " + bag.fault();
+    fault_ += (fault_.empty() ? "" : "; ") + (files_.size() > 1 ? files_[file_].path.filename().string() + ": " : "") +
+              bag.fault();
     is_damaged_ = is_damaged_ || !bag.isCutOff();
   }
   return std::nullopt;

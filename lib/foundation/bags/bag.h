@@ -65,7 +65,7 @@ class Bag {
   /// As of BagFile, of one file after the other.
   std::optional<BagMessage> next();
   std::optional<BagMessage> at(const BagPlace& place);
-  /// "FILE: why" of the files whose end could not be read; empty for none.
+  /// Why the end of a file could not be read, with its name if there are several; empty for none.
   const std::string& fault() const { return fault_; }
   /// Whether a file has wrong bytes, rather than ending too early.
   bool isDamaged() const { return is_damaged_; }

@@ -73,8 +73,9 @@ std::vector<fs::path> bagFilesIn(const fs::path& folder) {
     std::sort(files.begin(), files.end());
   }
   if (files.empty()) {
-    throw ConfigError(folder.string() +
-                      ": is a directory without a recording of rosbag2: metadata.yaml, and .mcap or .db3 files");
+    throw ConfigError(
+        folder.string() +
+        ": is a directory; name a file in it, or the folder of a bag of ROS 2, which has .mcap or .db3 files");
   }
   return files;
 }

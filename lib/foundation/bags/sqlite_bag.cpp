@@ -57,8 +57,14 @@ class SqliteBag final : public BagFile {
 
   [[noreturn]] void fail() const {
     throwIfInterrupted(name_ + " was not read");
-    throw ConfigError(
-        name_ + ": is no database of rosbag2, with the tables topics and messages: " + sqlite3_errmsg(database_.get()));
+    constexpr int kKind = 0xff;  // without the details
+    const int kind = sqlite3_errcode(database_.get()) & kKind;
+    const std::string what = kind == SQLITE_ERROR ? "is no database of rosbag2, with the tables topics and messages: "
+                                                  : "the database cannot be read: ";
+    // Of a bag that was not closed, SQLite writes the index of its log beside it.
+    const bool needs_log = kind == SQLITE_READONLY || kind == SQLITE_CANTOPEN;
+    throw ConfigError(name_ + ": " + what + sqlite3_errmsg(database_.get()) +
+                      (needs_log ? "; copy it to a folder in which files can be created" : ""));
   }
   Statement prepare(const char* query) {
     sqlite3_stmt* statement = nullptr;
