@@ -39,13 +39,13 @@ struct SensorName {
 SensorName sensorNameOf(const BagTopic& topic) {
   SensorName name;
   name.all = name.parts = partsOf(topic.name);
-  const auto dropLast = [&](std::initializer_list<std::string_view> words) {
+  const auto drop_last = [&](std::initializer_list<std::string_view> words) {
     if (name.parts.size() < 2) return;
     if (std::find(words.begin(), words.end(), name.parts.back()) != words.end()) name.parts.pop_back();
   };
   if (topic.type == ros::CompressedImage::kType || topic.type == ros::Image::kType) {
-    dropLast({"compressed"});
-    dropLast({"image_raw", "image", "image_color", "image_mono", "image_rect", "image_rect_color"});
+    drop_last({"compressed"});
+    drop_last({"image_raw", "image", "image_color", "image_mono", "image_rect", "image_rect_color"});
   } else if (topic.type == ros::Range::kType && name.parts.size() > 1) {
     constexpr std::string_view kPrefix = "range_";
     const std::string& last = name.parts.back();
