@@ -33,7 +33,6 @@ const refusalOf = (recording) => {
   return stderr;
 };
 const summaryOf = (recording) => JSON.parse(robosim('replay', recording, '--json'));
-const countOf = (recording, label) => summaryOf(recording).channels.find((one) => one.label === label)?.count ?? 0;
 
 const rowsOf = (csv) => {
   const [head, ...lines] = csv.trimEnd().split('\n').map((line) => line.split(','));
@@ -74,7 +73,7 @@ before(async () => {
   handlers = await loadDecompressHandlers();
   await zstd.isLoaded;
   for (const name of ['run.mcap', 'run.rawlog']) {
-    robosim('run', 'worlds/small_maze.xml', '--time', '5', '--seed', '7', '--record', inFolder(name));
+    robosim('run', 'worlds/small_maze.xml', '--time', '3', '--seed', '7', '--record', inFolder(name));
   }
   messages = encoded(messagesIn(readFileSync(inFolder('run.mcap')), handlers));
   writeFileSync(inFolder('foreign.mcap'), await mcapOf(messages));
@@ -84,7 +83,7 @@ after(() => rmSync(folder, { recursive: true }));
 
 test('a file of another program has the numbers of the rawlog of the same run', () => {
   const compared = assertSameRun(tableOf(inFolder('foreign.mcap')), tableOf(inFolder('run.rawlog')));
-  assert.ok(compared > 10000, `${compared} numbers`);
+  assert.ok(compared > 7000, `${compared} numbers`);
 });
 
 test('so have a database and folders of rosbag2', async () => {
@@ -101,7 +100,7 @@ test('so have a database and folders of rosbag2', async () => {
 
 test('a summary names topics that are not read', () => {
   const { not_read: notRead, assumed, whole } = summaryOf(inFolder('foreign.mcap'));
-  assert.ok(notRead.includes('/Pioneer1/sonar/points (sensor_msgs/msg/PointCloud2), 51 messages'), notRead);
+  assert.ok(notRead.includes('/Pioneer1/sonar/points (sensor_msgs/msg/PointCloud2), 31 messages'), notRead);
   assert.ok(notRead.includes('/map (nav_msgs/msg/OccupancyGrid), 1 message'), notRead);
   assert.deepEqual(assumed, []);
   assert.equal(whole, true);
@@ -150,8 +149,8 @@ test('messages in any order of the file are read in the order of their times', a
 test('a file that is cut anywhere has the messages that @mcap/core reads', async () => {
   for (const options of [{ useChunks: false }, { chunkSize: 50_000, compressChunk: COMPRESSIONS.lz4 }]) {
     const whole = await mcapOf(messages, options);
-    for (let i = 1; i < 12; ++i) {
-      const cut = whole.subarray(0, Math.floor(i * whole.length / 12) + i);
+    for (let i = 1; i < 8; ++i) {
+      const cut = whole.subarray(0, Math.floor(i * whole.length / 8) + i);
       writeFileSync(inFolder('cut.mcap'), cut);
       const reader = new McapStreamReader({ decompressHandlers: handlers });
       reader.append(cut);
@@ -164,8 +163,9 @@ test('a file that is cut anywhere has the messages that @mcap/core reads', async
       if (topics.size === 0) {
         assert.match(refusalOf(inFolder('cut.mcap')), /contains no message that can be read: .*cut off/);
       } else {
-        assert.equal(countOf(inFolder('cut.mcap'), 'Pioneer1/laser'), scans, `${i}`);
-        assert.match(summaryOf(inFolder('cut.mcap')).trouble, /ends early: .*cut off/);
+        const { channels, trouble } = summaryOf(inFolder('cut.mcap'));
+        assert.equal(channels.find(({ label }) => label === 'Pioneer1/laser')?.count ?? 0, scans, `${i}`);
+        assert.match(trouble, /ends early: .*cut off/);
       }
     }
   }
@@ -186,7 +186,7 @@ test('selections, figures and pictures are those of the rawlog that the recordin
   assertSameRun(tableOf(inFolder('foreign.rawlog')), tableOf(inFolder('foreign.mcap')));
   for (const recording of ['foreign.mcap', 'foreign.db3', 'foreign.rawlog']) {  // a picture has the name
     robosim('export', inFolder(recording), inFolder(`${recording}.png`));
-    robosim('view', inFolder(recording), '--to', '3', '--offscreen', inFolder(`${recording}.view.png`));
+    robosim('view', inFolder(recording), '--to', '2', '--offscreen', inFolder(`${recording}.view.png`));
   }
   for (const recording of ['foreign.db3', 'foreign.rawlog']) {
     for (const picture of ['png', 'view.png']) {
@@ -248,18 +248,19 @@ test('what cannot be read is refused with the reason', async () => {
 test('a damaged database is read up to the damage', async () => {
   writeDatabase(inFolder('whole.db3'), messages);
   const bytes = readFileSync(inFolder('whole.db3'));
+  const [begin, end] = [0.4, 0.5].map((share) => Math.floor(share * bytes.length));
   writeFileSync(inFolder('damaged.db3'), Buffer.concat([
-    bytes.subarray(0, 200_000), Buffer.alloc(60_000, 0x5a), bytes.subarray(260_000)]));
+    bytes.subarray(0, begin), Buffer.alloc(end - begin, 0x5a), bytes.subarray(end)]));
   const { status, stdout } = spawnSync(ROBOSIM, ['replay', inFolder('damaged.db3')], { encoding: 'utf8' });
   assert.equal(status, 1);
   assert.match(stdout, /CObservation2DRangeScan/);
   assert.match(stdout, /damaged\.db3: ends early: database disk image is malformed/);
-  writeFileSync(inFolder('cut.db3'), bytes.subarray(0, 300_000));
+  writeFileSync(inFolder('cut.db3'), bytes.subarray(0, end));
   assert.match(refusalOf(inFolder('cut.db3')), /cut\.db3: the database cannot be read: database disk image is malformed/);
 });
 
 test('a damaged message is left out and named', async () => {
-  const damaged = messages.map((one, i) => one.topic === '/Pioneer1/scan' && i > 1000 ? { ...one, data: one.data.subarray(0, 60) } : one);
+  const damaged = messages.map((one, i) => one.topic === '/Pioneer1/scan' && i > 700 ? { ...one, data: one.data.subarray(0, 60) } : one);
   writeFileSync(inFolder('damaged.mcap'), await mcapOf(damaged));
   const { status, stdout } = spawnSync(ROBOSIM, ['replay', inFolder('damaged.mcap')], { encoding: 'utf8' });
   assert.equal(status, 1);
