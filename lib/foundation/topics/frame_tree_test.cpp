@@ -5,12 +5,17 @@
 
 #include <gtest/gtest.h>
 
-#include "recording/testing/sample_bag.h"
 
 namespace robosim {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
+
+/// A frame that is moved, and not turned.
+ros::TransformStamped transformAt(std::int32_t time_s, const std::string& parent, const std::string& child, double x_m,
+                                  double y_m = 0) {
+  return {{{time_s, 0}, parent}, child, {{x_m, y_m, 0}, {0, 0, 0, 1}}};
+}
 
 /// x and y of a frame; NaN for an unknown one.
 std::pair<double, double> at(const FrameTree& frames, const std::string& in, const std::string& frame,
