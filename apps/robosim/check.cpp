@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include "robots/fleet.h"
 #include "robots/free_space.h"
 #include "robots/robot_type_includes.h"
+#include "robots/world_source.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
 #include "world/raster.h"
@@ -36,6 +38,11 @@ struct Checked {
   std::vector<std::string> warnings;
   Rows contents;             ///< text output
   ErrorModels error_models;  ///< of a world or a robot type
+  /// @name Of a world of Stage
+  ///@{
+  std::vector<std::string> notes;
+  std::optional<TranslatedStageWorld::Properties> properties;
+  ///@}
 };
 
 /// A pose in metres and degrees, to the millimetre and the tenth of a degree.
@@ -153,8 +160,10 @@ void checkControllersOf(const LoadedWorld& loaded, const std::string& file, cons
                              (more == 0 ? "" : "; so do " + withCommas(more) + " further robots"));
 }
 
-void checkWorld(const std::string& file, World world_in_file, const Additions& additions, Checked& checked) {
-  RobotTypes types = robotTypesIn(robotTypeFolders(file));
+/// @param types those of the world itself, before those in folders
+void checkWorld(const std::string& file, World world_in_file, RobotTypes types, const Additions& additions,
+                Checked& checked) {
+  types.merge(robotTypesIn(robotTypeFolders(file)));
   std::vector<std::string> moved;
   LoadedWorld loaded =
       placedWorld(std::move(world_in_file), file, types, checkController, additions.seed, checked.errors, &moved);
@@ -201,6 +210,19 @@ void checkWorld(const std::string& file, World world_in_file, const Additions& a
   if (checked.errors.empty()) checkEdge(world, fleet, checked);
 }
 
+void checkStageWorld(const std::string& file, const Additions& additions, Checked& checked) {
+  StageNotes notes;
+  const WorldSource source = readWorldSource(file, &notes);
+  World world = parseWorld(source.text, source.file, makeProvider(source.file, source.files), checked.errors);
+  checkWorld(file, std::move(world), source.robot_types, additions, checked);
+  checked.properties = notes.properties;
+  checked.contents.push_back(
+      {"properties", withCommas(notes.properties.translated) + " of " + withCommas(notes.properties.all) +
+                         " translated, " + withCommas(notes.properties.display) + " of Stage's window and clock, " +
+                         withCommas(notes.properties.ignored) + " ignored"});
+  checked.notes = std::move(notes.lines);
+}
+
 void checkRobotList(const std::string& file, const XmlElement& root, Checked& checked) {
   const auto robots = robotListFrom(root, file, checked.errors);
   checked.contents.push_back({"robots", std::to_string(robots.size())});
@@ -232,7 +254,12 @@ Checked check(const std::string& file, const Additions& additions) {
   try {
     if (isMapFile(file)) {
       checked.kind = "map";
-      checkWorld(file, readWorld(file, checked.errors), additions, checked);
+      checkWorld(file, readWorld(file, checked.errors), {}, additions, checked);
+      return checked;
+    }
+    if (isStageFile(file)) {
+      checked.kind = "world of Stage";
+      checkStageWorld(file, additions, checked);
       return checked;
     }
     // Read once, because a pipe can be read only once.
@@ -248,7 +275,7 @@ Checked check(const std::string& file, const Additions& additions) {
       checkRobotModel(file, root, checked);
     } else {
       checked.kind = "world";
-      checkWorld(file, parseWorld(std::move(text), file, filesOnDisk(file), checked.errors), additions, checked);
+      checkWorld(file, parseWorld(std::move(text), file, filesOnDisk(file), checked.errors), {}, additions, checked);
     }
   } catch (const ConfigError& error) {
     checked.errors.add(error);
@@ -259,22 +286,30 @@ Checked check(const std::string& file, const Additions& additions) {
 void report(const std::string& file, const Checked& checked, bool as_json) {
   const bool ok = checked.errors.empty();
   if (as_json) {
-    std::cout << jsonText({{"file", file},
-                           {"kind", checked.kind},
-                           {"ok", ok},
-                           {"errors", checked.errors.errors()},
-                           {"warnings", checked.warnings},
-                           {"open_edge_m", checked.open_edge_m},
-                           {"robots", checked.robots},
-                           {"objects", checked.objects},
-                           {"maps", checked.maps},
-                           {"error_models", checked.error_models.json()}})
-              << '\n';
+    nlohmann::ordered_json result = {{"file", file},
+                                     {"kind", checked.kind},
+                                     {"ok", ok},
+                                     {"errors", checked.errors.errors()},
+                                     {"warnings", checked.warnings},
+                                     {"open_edge_m", checked.open_edge_m},
+                                     {"robots", checked.robots},
+                                     {"objects", checked.objects},
+                                     {"maps", checked.maps},
+                                     {"error_models", checked.error_models.json()}};
+    if (const auto& properties = checked.properties) {
+      result["notes"] = checked.notes;
+      result["properties"] = {{"all", properties->all},
+                              {"translated", properties->translated},
+                              {"display", properties->display},
+                              {"ignored", properties->ignored}};
+    }
+    std::cout << jsonText(result) << '\n';
   } else if (ok) {
     std::cout << "ok: " << printableText(file) << " (" << checked.kind << ")\n" << listing(checked.contents);
     for (const auto& warning : checked.warnings) {
       std::cout << "warning: " << printableText(file) << ": " << warning << '\n';
     }
+    for (const auto& note : checked.notes) std::cout << "note: " << printableText(note) << '\n';
   } else {
     for (const auto& error : checked.errors.errors()) std::cout << error << '\n';
     const auto count = checked.errors.errors().size();
@@ -293,7 +328,7 @@ void addCheck(CLI::App& program) {
   };
   auto* command = addSubcommand(program, "check");
   auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")
+  command->add_option("FILE", arguments->file, "a world, also of Stage, a map, a robot type, or a 2005 robot list")
       ->transform(inputFile([] {
         std::vector<FileKind> kinds = kWorldKinds;
         kinds.insert(kinds.end(), {FileKind::robot_type, FileKind::robot_list});

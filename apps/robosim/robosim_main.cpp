@@ -18,8 +18,8 @@ namespace {
 using AddSubcommands = void (*)(CLI::App& program);
 
 void addRunSubcommands(CLI::App& program) {
-  for (const auto add : {addRun, addReplay, addCheck, addExport, addFit, addGenerate, addControllers, addSensors,
-                         addObservers, addBench}) {
+  for (const auto add : {addRun, addReplay, addCheck, addExport, addConvert, addFit, addGenerate, addControllers,
+                         addSensors, addObservers, addBench}) {
     add(program);
   }
 }

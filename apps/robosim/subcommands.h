@@ -45,6 +45,7 @@ inline constexpr std::array kSubcommands{
                "robosim-run"},
     Subcommand{"check", "Validate a file and summarise it, or list all errors", "robosim-run"},
     Subcommand{"export", "Export a world as a map or plan, or a recording as tables or a figure", "robosim-run"},
+    Subcommand{"convert", "Convert a world of Stage to files of RoboSim", "robosim-run"},
     Subcommand{"fit", "Estimate the errors of a laser scanner from a recording of a real robot", "robosim-run"},
     Subcommand{"generate", "Generate a random world: maze, cave, office, open", "robosim-run"},
     Subcommand{"controllers", "List the controllers with their parameters", "robosim-run"},
@@ -93,6 +94,7 @@ void addView(CLI::App& program);
 void addReplay(CLI::App& program);
 void addCheck(CLI::App& program);
 void addExport(CLI::App& program);
+void addConvert(CLI::App& program);
 void addFit(CLI::App& program);
 void addGenerate(CLI::App& program);
 void addControllers(CLI::App& program);

@@ -7,6 +7,7 @@
 #include "recording/rawlog_file.h"
 #include "viewing/view_source.h"
 #include "world/map_reader.h"
+#include "world/world_file.h"
 
 namespace robosim {
 namespace {
@@ -17,7 +18,7 @@ void refuseChanges(const std::string& source, const WorldChanges& changes, const
 }
 
 std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChanges& changes, std::uint64_t seed) {
-  if (isMapFile(source)) return viewWorld(source, changes, seed);
+  if (isMapFile(source) || isStageFile(source)) return viewWorld(source, changes, seed);
   auto file = std::make_unique<RereadableFile>(source);
   const bool is_text = !looksLikeRawlog(file->path());
   if (is_text && !changes.isNone()) return viewWorld(source, changes, seed);
@@ -35,7 +36,7 @@ std::unique_ptr<ViewSource> openView(const std::string& source,
   if (std::filesystem::exists(std::filesystem::symlink_status(source, ignored))) return viewFile(source, changes, seed);
   const bool looks_like_file = source.find('/') != std::string::npos || source.ends_with(".xml") ||
                                source.ends_with(".rawlog") || source.ends_with(".mcap") || source.ends_with(".db3") ||
-                               isMapFile(source);
+                               isMapFile(source) || isStageFile(source);
   if (looks_like_file)
     throw ConfigError(source + ": there is no such file; give a world, a map, a recording, or HOST:PORT" +
                       searchedText(source));

@@ -65,6 +65,22 @@ std::string_view firstLine(std::string_view text) {
   return {};
 }
 
+/// Whether a file that begins with a word is a world of Stage, by what follows it on its line.
+bool isOfStage(std::string_view word, std::string_view rest) {
+  constexpr std::array<std::string_view, 20> kStage{
+      "define",  "include",     "window",     "floorplan",    "model",        "position", "resolution",
+      "size",    "name",        "paused",     "quit_time",    "interval_sim", "speedup",  "interval_real",
+      "threads", "unit_length", "unit_angle", "gui_interval", "show_clock",   "map"};
+  if (std::find(kStage.begin(), kStage.end(), word) == kStage.end()) return false;
+  rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
+  if (word == "define") return !rest.empty();
+  if (word == "include") return rest.starts_with('"');
+  // An entity may open on the next line.
+  const bool is_entity = rest.empty() && (word == "window" || word == "floorplan" || word == "model" ||
+                                          word == "position" || word == "map");
+  return is_entity || (!rest.empty() && std::string_view("([\"+-.0123456789#").find(rest[0]) != std::string_view::npos);
+}
+
 FileKind kindOfText(std::string_view text) {
   const std::string_view line = firstLine(text);
   const std::string_view word = line.substr(0, line.find_first_of(" \t\r("));
@@ -74,10 +90,7 @@ FileKind kindOfText(std::string_view text) {
   if (text.starts_with("# CARMEN") || std::find(kCarmen.begin(), kCarmen.end(), word) != kCarmen.end()) {
     return FileKind::carmen_log;
   }
-  constexpr std::array<std::string_view, 4> kStage{"define", "include", "window", "floorplan"};
-  const bool is_stage = std::find(kStage.begin(), kStage.end(), word) != kStage.end() &&
-                        line.find_first_of("(\"") != std::string_view::npos;
-  if (is_stage || (word == "define" && line.find(' ') != std::string_view::npos)) return FileKind::stage_world;
+  if (isOfStage(word, line.substr(word.size()))) return FileKind::stage_world;
   if (text.starts_with("image:") || text.find("\nimage:") != std::string_view::npos) return FileKind::ros_yaml;
   return FileKind::unknown;
 }
@@ -119,13 +132,14 @@ constexpr std::array kDescriptions{
     Description{FileKind::mcap, "an MCAP recording", "robosim replay, view, export and fit take it"},
     Description{FileKind::sqlite, "an SQLite database, such as a bag of ROS 2",
                 "robosim replay, view, export and fit take those of rosbag2"},
-    Description{FileKind::bmp, "a picture in the format BMP", "convert it to .png, which a world can have as its map"},
+    Description{FileKind::bmp, "a picture in the format BMP",
+                "a world refers to it, as in <map file=\"plan.bmp\" resolution=\"0.05\"/>"},
     Description{FileKind::jpeg, "a picture in the format JPEG",
-                "convert it to .png, which a world can have as its map"},
+                "a world refers to it, as in <map file=\"plan.jpg\" resolution=\"0.05\"/>"},
     Description{FileKind::octomap, "an OctoMap",
                 "no command reads it; maps are read from .gridmap, .yaml of ROS, .png, .pgm and .map"},
     Description{FileKind::stage_world, "a world of Stage",
-                "no command reads it; its picture can be the map of a world"},
+                "robosim run, serve, check, view, export and convert take it"},
     Description{FileKind::carmen_log, "a CARMEN log",
                 "convert it by MRPT's carmen2rawlog; robosim replay takes the result"},
     Description{FileKind::simple_map, "a simple map of MRPT",

@@ -14,18 +14,18 @@ enum class FileKind {
   robot_type,
   robot_list,  ///< of 2005
   other_xml,
-  gridmap,     ///< MRPT's COccupancyGridMap2D
-  ros_yaml,    ///< of ROS's map_server
-  picture,     ///< PNG, PGM, PPM or PBM
-  activmedia,  ///< 2D-Map
-  rawlog,      ///< MRPT's
+  gridmap,   ///< MRPT's COccupancyGridMap2D
+  ros_yaml,  ///< of ROS's map_server
+  picture,   ///< PNG, PGM, PPM or PBM
+  bmp,
+  jpeg,
+  stage_world,  ///< of Stage 2 to 4
+  activmedia,   ///< 2D-Map
+  rawlog,       ///< MRPT's
   mcap,
   sqlite,  ///< of rosbag2
   // Of other programs:
-  bmp,
-  jpeg,
   octomap,
-  stage_world,
   carmen_log,
   simple_map,
   scene_3d,
@@ -36,8 +36,8 @@ enum class FileKind {
 
 /// @name Kinds that commands take
 ///@{
-inline const std::vector<FileKind> kWorldKinds{FileKind::world, FileKind::gridmap, FileKind::ros_yaml,
-                                               FileKind::picture, FileKind::activmedia};
+inline const std::vector<FileKind> kWorldKinds{FileKind::world,   FileKind::gridmap,    FileKind::ros_yaml,
+                                               FileKind::picture, FileKind::activmedia, FileKind::stage_world};
 inline const std::vector<FileKind> kRecordingKinds{FileKind::rawlog, FileKind::mcap, FileKind::sqlite};
 ///@}
 

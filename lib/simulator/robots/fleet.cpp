@@ -15,6 +15,7 @@
 #include "robots/start_check.h"
 #include "robots/start_places.h"
 #include "robots/timeline_check.h"
+#include "robots/world_source.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -177,6 +178,11 @@ LoadedWorld placedWorld(World world, const std::string& world_file, const RobotT
 }
 
 LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller, std::uint64_t seed) {
+  if (isStageFile(file)) {
+    WorldSource source = readWorldSource(file);
+    source.seed = seed;
+    return loadWorld(source, check_controller);
+  }
   ErrorList errors;
   World world = readWorld(file, errors);
   const RobotTypes types = robotTypesIn(robotTypeFolders(file));

@@ -1,7 +1,9 @@
 #include "robots/world_source.h"
 
 #include "base/digest.h"
+#include "base/file_kind.h"
 #include "base/log.h"
+#include "base/xml_element.h"
 #include "robots/robot_type_includes.h"
 #include "world/caching_file_provider.h"
 #include "world/world_file.h"
@@ -18,7 +20,9 @@ void add(Digest& digest, const std::string& text) {
 
 namespace {
 
-WorldSource completed(std::string world_text, const std::filesystem::path& file, const FileProvider& disk) {
+/// @param own robot types that belong to the world, before those in folders
+WorldSource completed(std::string world_text, const std::filesystem::path& file, const FileProvider& disk,
+                      RobotTypes own = {}) {
   WorldSource source;
   source.file = file.string();
   source.text = std::move(world_text);
@@ -35,7 +39,8 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
   for (const auto& map : world.maps) {
     for (const auto& warning : map.plan.warnings) logWarning("", map.file + ": " + warning);
   }
-  const RobotTypes known = robotTypesIn(robotTypeFolders(file));
+  own.merge(robotTypesIn(robotTypeFolders(file)));
+  const RobotTypes& known = own;
   const auto keep_type = [&](const std::string& model) {
     const auto type = known.find(model);
     if (type == known.end() || source.robot_types.count(model)) return;
@@ -51,10 +56,33 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
   return source;
 }
 
+WorldSource fromStage(const std::filesystem::path& file, const FileProvider& disk, StageNotes* notes) {
+  requireKind(file, kWorldKinds);
+  requireNameOfKind(file);
+  if (kindOfFile(file) == FileKind::other_xml) {
+    throw ConfigError(file.string() +
+                      ": is an XML file, such as a world of Gazebo, and no world of Stage; RoboSim's own "
+                      "worlds end in .xml");
+  }
+  TranslatedStageWorld world = translateStageWorld(readXmlText(file), file.string(), disk);
+  RobotTypes types;
+  // Their names in errors, as if the world were a folder: a type's file is named as the type.
+  for (auto& [name, text] : world.robot_types) types[name] = {file / (name + ".xml"), text};
+  const std::size_t count = world.notes.size();
+  if (notes) {
+    *notes = {std::move(world.notes), world.properties};
+  } else if (count > 0) {
+    logWarning("", file.string() + ": " + std::to_string(count) + (count == 1 ? " thing" : " things") +
+                       " of Stage left out or changed; robosim check lists " + (count == 1 ? "it" : "them"));
+  }
+  return completed(std::move(world.text), file, disk, std::move(types));
+}
+
 }  // namespace
 
-WorldSource readWorldSource(const std::filesystem::path& file) {
+WorldSource readWorldSource(const std::filesystem::path& file, StageNotes* notes) {
   const FileProvider disk = cachingFileProvider(filesOnDisk(file));
+  if (isStageFile(file)) return fromStage(file, disk, notes);
   return completed(readWorldText(file, disk), file, disk);
 }
 

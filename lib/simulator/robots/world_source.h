@@ -7,6 +7,7 @@
 
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
+#include "stage/stage_world.h"
 #include "world/file_provider.h"
 
 namespace robosim {
@@ -26,10 +27,17 @@ struct WorldSource {
   std::optional<std::uint64_t> seed{};
 };
 
-/// Reads a world file and the files that it refers to.
+/// What a world of Stage has that RoboSim has not.
+struct StageNotes {
+  std::vector<std::string> lines;  ///< TranslatedStageWorld::notes
+  TranslatedStageWorld::Properties properties;
+};
+
+/// Reads a world file and the files that it refers to. A world of Stage (isStageFile()) is translated.
+/// @param notes receives what is left out of a world of Stage; null: its number is logged
 /// @throws ConfigError when the file of the world, a robot type, a map or an included file cannot be read. loadWorld()
 /// reports faults in their contents.
-WorldSource readWorldSource(const std::filesystem::path& file);
+WorldSource readWorldSource(const std::filesystem::path& file, StageNotes* notes = nullptr);
 /// Completes the text of a world file by the files that it refers to, as if it were in `file`, which need not exist.
 /// @throws ConfigError as readWorldSource()
 WorldSource completeWorldSource(std::string text, const std::filesystem::path& file);

@@ -11,11 +11,12 @@ namespace robosim {
 enum class MapFormat {
   gridmap,     ///< MRPT's COccupancyGridMap2D, compressed or not
   ros_yaml,    ///< ROS map_server: a .yaml file that refers to a picture
-  picture,     ///< PNG, PGM, PPM or PBM
+  picture,     ///< PNG, JPEG, BMP, PGM, PPM or PBM
   activmedia,  ///< 2D-Map: walls as lines, and points
 };
 
-/// Format of a map file by its name (.gridmap, .gridmap.gz, .yaml, .yml, .png, .pgm, .ppm, .pbm, .map).
+/// Format of a map file by its name (.gridmap, .gridmap.gz, .yaml, .yml, .png, .jpg, .jpeg, .bmp, .pgm, .ppm, .pbm,
+/// .map).
 /// @throws ConfigError for any other name
 MapFormat recognizeMapFormat(const std::filesystem::path& file);
 /// Whether recognizeMapFormat() recognises the file's name.
@@ -28,6 +29,9 @@ struct MapReading {
   bool negate = false;               ///< picture: lighter is occupied
   bool unknown_is_occupied = false;  ///< gridmap, ros_yaml, picture
   bool is_of_ros1 = false;           ///< ros_yaml, picture: thresholds and alpha as in ROS 1; otherwise as in nav2
+  /// picture: as a bitmap of Stage: its first channel counts, pixels up to half of white are occupied, others free
+  bool is_of_stage = false;
+  double pixel_y_m = 0;  ///< picture: height of a pixel, if it differs from its width; 0: a square
   bool operator==(const MapReading&) const = default;
 };
 

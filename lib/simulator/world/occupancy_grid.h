@@ -42,5 +42,7 @@ struct OccupancyThresholds {
   }
   bool operator==(const OccupancyThresholds&) const = default;
 };
+/// Of Stage: pixels up to 127 are occupied, all others are free.
+constexpr OccupancyThresholds kStageThresholds{.occupied = 0.5, .free = 0.5, .are_inclusive = false};
 
 }  // namespace robosim

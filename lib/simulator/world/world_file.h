@@ -19,6 +19,9 @@ World parseWorld(std::string text, const std::string& file, const FileProvider& 
 /// Parses a world that refers to no other file.
 World parseWorld(std::string text, const std::string& file, ErrorList& errors);
 
+/// Whether a file is a world of Stage by the ending of its name, `.world`.
+bool isStageFile(const std::filesystem::path& file);
+
 /// A world or a map is read by the ending of its name (recognizeMapFormat()). Refuses a file whose first bytes are of
 /// another kind than its name says: a map that does not end as its format does, and any other kind that ends like a
 /// map.

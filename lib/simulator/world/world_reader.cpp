@@ -146,20 +146,35 @@ class WorldReader {
     }
   }
 
+  /// Reads whose rules apply to the pixels.
+  static void readMapServer(XmlReader& reader, MapFormat format, MapReading& reading) {
+    enum class Rules { nav2, ros1, stage };
+    const Rules rules =
+        format == MapFormat::picture
+            ? reader.choice<Rules>("map_server",
+                                   {{"nav2", Rules::nav2}, {"ros1", Rules::ros1}, {"stage", Rules::stage}}, Rules::nav2)
+            : reader.choice<Rules>("map_server", {{"nav2", Rules::nav2}, {"ros1", Rules::ros1}}, Rules::nav2);
+    reading.is_of_ros1 = rules == Rules::ros1;
+    reading.is_of_stage = rules == Rules::stage;
+    if (reading.is_of_stage) reading.thresholds = kStageThresholds;
+  }
+
   /// Reads the settings that apply to the format.
   void readMapSettings(XmlReader& reader, MapFormat format, MapReading& reading) {
     if (format == MapFormat::activmedia) return;
     reading.unknown_is_occupied =
         reader.choice<bool>("unknown", {{"free", false}, {"occupied", true}}, reading.unknown_is_occupied);
     if (format != MapFormat::gridmap) {
-      reading.is_of_ros1 = reader.choice<bool>("map_server", {{"nav2", false}, {"ros1", true}}, reading.is_of_ros1);
+      readMapServer(reader, format, reading);
     }
     if (format == MapFormat::ros_yaml) return;
     auto& thresholds = reading.thresholds;
     thresholds.occupied = reader.number("threshold", {0, 1}, thresholds.occupied);
-    thresholds.free = std::min(thresholds.free, thresholds.occupied);
+    thresholds.free = reading.is_of_stage ? thresholds.occupied : std::min(thresholds.free, thresholds.occupied);
     if (format == MapFormat::gridmap) return;
-    reading.pixel_m = reader.length("resolution", Bounds::positive(kCellMax_m / world_.unit_m), world_.unit_m);
+    const Bounds side = Bounds::positive(kCellMax_m / world_.unit_m);
+    reading.pixel_m = reader.length("resolution", side, world_.unit_m);
+    if (reader.has("resolution_y")) reading.pixel_y_m = reader.length("resolution_y", side, world_.unit_m);
     reading.negate = reader.flag("negate", reading.negate);
   }
 
@@ -201,7 +216,7 @@ class WorldReader {
   ScatterReader scatters_;
 };
 
-/// Clears the line numbers of a world generated around a map, which refer to no file.
+/// Clears the line numbers of a generated world, which refer to no file.
 void clearLines(XmlElement& element) {
   element.line.number = 0;
   for (auto& child : element.children) clearLines(child);
@@ -235,6 +250,12 @@ XmlElement worldAround(const std::filesystem::path& map_file, const FileProvider
 
 }  // namespace
 
+bool isStageFile(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".world";
+}
+
 void requireNameOfKind(const std::filesystem::path& file) {
   struct Ending {
     FileKind kind;
@@ -244,6 +265,9 @@ void requireNameOfKind(const std::filesystem::path& file) {
   const Ending endings[] = {{FileKind::gridmap, MapFormat::gridmap, ".gridmap or .gridmap.gz"},
                             {FileKind::ros_yaml, MapFormat::ros_yaml, ".yaml"},
                             {FileKind::picture, MapFormat::picture, ".png, .pgm, .ppm or .pbm"},
+                            {FileKind::jpeg, MapFormat::picture, ".jpg or .jpeg"},
+                            {FileKind::bmp, MapFormat::picture, ".bmp"},
+                            {FileKind::stage_world, std::nullopt, ".world"},
                             {FileKind::activmedia, MapFormat::activmedia, ".map"},
                             {FileKind::world, std::nullopt, ".xml"},
                             {FileKind::robot_type, std::nullopt, ".xml"},
@@ -253,7 +277,7 @@ void requireNameOfKind(const std::filesystem::path& file) {
   for (const auto& one : endings) {
     if (kind != one.kind) continue;
     const std::optional<MapFormat> named = isMapFile(file) ? std::optional(recognizeMapFormat(file)) : std::nullopt;
-    if (named == one.format) return;
+    if (named == one.format && isStageFile(file) == (kind == FileKind::stage_world)) return;
     const std::string what = kindText(kind);
     throw ConfigError(file.string() + ": is " + what.substr(0, what.find(": ")) + ", so that its name must end in " +
                       one.ending + "; rename it");
@@ -279,7 +303,7 @@ World readWorld(const std::filesystem::path& file, ErrorList& errors) {
 World parseWorld(std::string text, const std::string& file, const FileProvider& files, ErrorList& errors) {
   try {
     XmlElement root = parseXml(std::move(text), file);
-    if (isMapFile(file)) clearLines(root);
+    if (isMapFile(file) || isStageFile(file)) clearLines(root);
     return WorldReader(root, file, files, errors).read();
   } catch (const ConfigError& error) {
     errors.add(error);

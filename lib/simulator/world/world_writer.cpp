@@ -87,10 +87,12 @@ class WorldWriter {
     if (format == MapFormat::activmedia) return;
     element.add("unknown", map.reading.unknown_is_occupied ? "occupied" : "free");
     if (map.reading.is_of_ros1) element.add("map_server", "ros1");
+    if (map.reading.is_of_stage) element.add("map_server", "stage");
     if (format == MapFormat::ros_yaml) return;
     element.add("threshold", toText(map.reading.thresholds.occupied));
     if (format == MapFormat::gridmap) return;
     addLength(element, "resolution", map.reading.pixel_m);
+    if (map.reading.pixel_y_m > 0) addLength(element, "resolution_y", map.reading.pixel_y_m);
     element.add("negate", map.reading.negate ? "1" : "0");
   }
 

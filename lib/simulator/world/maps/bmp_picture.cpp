@@ -31,14 +31,16 @@ class BmpReader {
     Picture picture;
     picture.columns = columns_;
     picture.rows = rows_;
-    picture.channels = has_alpha && alpha == Picture::Alpha::counts ? 4 : 3;
+    const bool is_only_red = alpha == Picture::Alpha::only_red;
+    const std::uint32_t first = is_only_red ? 2 : 0;
+    picture.channels = is_only_red ? 1 : has_alpha && alpha == Picture::Alpha::counts ? 4 : 3;
     picture.sums.reserve(std::size_t{columns_} * rows_);
     for (std::uint32_t row = 0; row < rows_; ++row) {
       const std::uint64_t stored = is_top_down_ ? row : rows_ - 1 - row;
       for (std::uint32_t column = 0; column < columns_; ++column) {
         const auto values = pixel(pixels_at_ + stored * row_bytes, column);
         std::uint32_t sum = 0;
-        for (std::uint32_t i = 0; i < picture.channels; ++i) sum += values[i];
+        for (std::uint32_t i = first; i < first + picture.channels; ++i) sum += values[i];
         picture.sums.push_back(sum);
         if (has_alpha && alpha == Picture::Alpha::marks_unknown) picture.is_transparent.push_back(values[3] < 255);
       }
@@ -104,7 +106,7 @@ class BmpReader {
     return static_cast<std::uint32_t>((std::uint64_t{(value & mask) >> shift} * 255 + max / 2) / max);
   }
 
-  /// Three colours in any order, and alpha.
+  /// Blue, green, red, and alpha.
   std::array<std::uint32_t, 4> pixel(std::uint64_t row_at, std::uint32_t column) const {
     const std::uint64_t bit = std::uint64_t{column} * bits_;
     if (bits_ <= 8) {
@@ -113,7 +115,7 @@ class BmpReader {
     }
     const std::uint32_t value = number(row_at + bit / 8, bits_ / 8);
     if (bits_ == 24) return {value & 0xff, value >> 8 & 0xff, value >> 16, 255};
-    return {masked(value, masks_[0]), masked(value, masks_[1]), masked(value, masks_[2]), masked(value, masks_[3])};
+    return {masked(value, masks_[2]), masked(value, masks_[1]), masked(value, masks_[0]), masked(value, masks_[3])};
   }
 
   const std::string& bytes_;

@@ -11,8 +11,10 @@ namespace {
 
 OccupancyGrid readPictureMap(const std::string& bytes, const std::string& path, const MapReading& reading) {
   PixelInterpretation pixels{.thresholds = reading.thresholds, .negate = reading.negate};
-  pixels.thresholds.are_inclusive = !reading.is_of_ros1;
-  const auto alpha = reading.is_of_ros1 ? Picture::Alpha::counts : Picture::Alpha::marks_unknown;
+  pixels.thresholds.are_inclusive = !reading.is_of_ros1 && !reading.is_of_stage;
+  const auto alpha = reading.is_of_stage  ? Picture::Alpha::only_red
+                     : reading.is_of_ros1 ? Picture::Alpha::counts
+                                          : Picture::Alpha::marks_unknown;
   OccupancyGrid grid = gridOf(readPicture(bytes, path, alpha), pixels);
   grid.cell_m = reading.pixel_m;
   return grid;
@@ -36,6 +38,20 @@ std::vector<std::string> warningsOf(const OccupancyGrid& grid, MapFormat format)
                        "or set map_server=\"ros1\" in its <map>");
   }
   return warnings;
+}
+
+/// A plan whose cells are not square, as boxes, which are no cells; unknown cells are left out.
+FloorPlan ofRectangularPixels(const FloorPlan& square, double pixel_y_m) {
+  FloorPlan plan;
+  for (const auto& cells : square.occupied) {
+    PlanBox box;
+    box.length_m = cells.columns * square.cell_m;
+    box.width_m = cells.rows * pixel_y_m;
+    box.map_from_box = {(cells.column + cells.columns / 2.0) * square.cell_m,
+                        (cells.row + cells.rows / 2.0) * pixel_y_m, 0};
+    plan.boxes.push_back(box);
+  }
+  return plan;
 }
 
 FloorPlan readMapFile(const std::string& name, const FileProvider& files, const MapReading& reading) {
@@ -66,6 +82,7 @@ FloorPlan readMapFile(const std::string& name, const FileProvider& files, const 
   if (far_m > kMapReach_m)
     throw ConfigError(path + ": reaches over more than 10,000 km; its resolution cannot be right");
   FloorPlan plan = toFloorPlan(grid, reading.unknown_is_occupied);
+  if (reading.pixel_y_m > 0) plan = ofRectangularPixels(plan, reading.pixel_y_m);
   plan.warnings = warningsOf(grid, recognizeMapFormat(name));
   return checked(std::move(plan));
 }

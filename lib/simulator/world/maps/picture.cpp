@@ -8,7 +8,7 @@ namespace {
 
 bool isJpeg(const std::string& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
-Picture readJpeg(const std::string& bytes, const std::string& name) {
+Picture readJpeg(const std::string& bytes, const std::string& name, bool is_only_red) {
   if (const JpegSize size = jpegSize(bytes); size.columns > 0) checkPictureSize(size.columns, size.rows, name);
   std::string fault;
   const JpegPicture jpeg = decodeJpeg(bytes, fault);
@@ -16,11 +16,11 @@ Picture readJpeg(const std::string& bytes, const std::string& name) {
   Picture picture;
   picture.columns = jpeg.columns;
   picture.rows = jpeg.rows;
-  picture.channels = jpeg.channels;
+  picture.channels = is_only_red ? 1 : jpeg.channels;
   picture.sums.reserve(jpeg.values.size() / jpeg.channels);
   for (std::size_t i = 0; i < jpeg.values.size(); i += jpeg.channels) {
     std::uint32_t sum = 0;
-    for (std::uint32_t channel = 0; channel < jpeg.channels; ++channel) sum += jpeg.values[i + channel];
+    for (std::uint32_t channel = 0; channel < picture.channels; ++channel) sum += jpeg.values[i + channel];
     picture.sums.push_back(sum);
   }
   return picture;
@@ -30,9 +30,9 @@ Picture readJpeg(const std::string& bytes, const std::string& name) {
 
 Picture readPicture(const std::string& bytes, const std::string& name, Picture::Alpha alpha) {
   if (isPng(bytes)) return readPng(bytes, name, alpha);
-  if (isPortableMap(bytes)) return readPortableMap(bytes, name);
+  if (isPortableMap(bytes)) return readPortableMap(bytes, name, alpha);
   if (isBmp(bytes)) return readBmp(bytes, name, alpha);
-  if (isJpeg(bytes)) return readJpeg(bytes, name);
+  if (isJpeg(bytes)) return readJpeg(bytes, name, alpha == Picture::Alpha::only_red);
   throw ConfigError(name + ": is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these");
 }
 

@@ -20,6 +20,7 @@ struct Picture {
     counts,         ///< one more channel of a pixel's value, as in the mode `trinary` of ROS 1
     is_left_out,    ///< none, as in the mode `scale` of ROS 1
     marks_unknown,  ///< pixels that are not fully opaque are unknown, as in nav2
+    only_red,       ///< none, and of the colours only red counts, as in Stage
   };
 };
 
@@ -36,7 +37,7 @@ Picture readPng(const std::string& bytes, const std::string& name, Picture::Alph
 bool isBmp(const std::string& bytes);
 Picture readBmp(const std::string& bytes, const std::string& name, Picture::Alpha alpha);
 bool isPortableMap(const std::string& bytes);
-Picture readPortableMap(const std::string& bytes, const std::string& name);
+Picture readPortableMap(const std::string& bytes, const std::string& name, Picture::Alpha alpha);
 /// @throws ConfigError unless a map may have this size
 void checkPictureSize(std::uint64_t columns, std::uint64_t rows, const std::string& name);
 ///@}

@@ -42,7 +42,7 @@ void check(const std::string& bytes, const std::string& name) {
 }
 
 template <typename Value>
-void addUp(const cv::Mat& image, Picture& picture, bool has_alpha) {
+void addUp(const cv::Mat& image, Picture& picture, bool has_alpha, std::uint32_t first) {
   const int stored = image.channels();
   picture.sums.reserve(image.total());
   if (has_alpha) picture.is_transparent.reserve(image.total());
@@ -50,7 +50,7 @@ void addUp(const cv::Mat& image, Picture& picture, bool has_alpha) {
     const auto* value = image.ptr<Value>(row);
     for (int column = 0; column < image.cols; ++column, value += stored) {
       std::uint32_t sum = 0;
-      for (std::uint32_t i = 0; i < picture.channels; ++i) sum += value[i];
+      for (std::uint32_t i = first; i < first + picture.channels; ++i) sum += value[i];
       picture.sums.push_back(sum);
       if (has_alpha) picture.is_transparent.push_back(value[stored - 1] < picture.white);
     }
@@ -76,12 +76,15 @@ Picture readPng(const std::string& bytes, const std::string& name, Picture::Alph
   picture.rows = static_cast<std::uint32_t>(image.rows);
   const auto stored = static_cast<std::uint32_t>(image.channels());
   picture.channels = stored == 4 && alpha != Picture::Alpha::counts ? 3 : stored;
+  const bool is_only_red = alpha == Picture::Alpha::only_red;
+  const std::uint32_t first = is_only_red && stored >= 3 ? 2 : 0;  // the order is blue, green, red
+  if (is_only_red) picture.channels = 1;
   const bool marks_unknown = stored == 4 && alpha == Picture::Alpha::marks_unknown;
   if (image.depth() == CV_16U) {
     picture.white = 65535;
-    addUp<std::uint16_t>(image, picture, marks_unknown);
+    addUp<std::uint16_t>(image, picture, marks_unknown, first);
   } else {
-    addUp<std::uint8_t>(image, picture, marks_unknown);
+    addUp<std::uint8_t>(image, picture, marks_unknown, first);
   }
   return picture;
 }

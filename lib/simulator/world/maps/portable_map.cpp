@@ -15,7 +15,7 @@ class PortableMapReader {
  public:
   PortableMapReader(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
-  Picture read() {
+  Picture read(Picture::Alpha alpha) {
     const int kind = bytes_[1] - '0';  // 1, 2, 3: plain bits, grays, colours; 4, 5, 6: the same raw
     const bool is_raw = kind > 3;
     const bool is_bitmap = kind == 1 || kind == 4;
@@ -27,6 +27,7 @@ class PortableMapReader {
     picture.white = is_bitmap ? 1 : number("the value of white", 65535);
     if (picture.white == 0) fail("the value of white is 0; it must lie in [1, 65535]");
     picture.channels = kind % 3 == 0 ? 3 : 1;
+    is_only_red_ = alpha == Picture::Alpha::only_red;
     if (is_raw) ++at_;  // a single white space
     const std::size_t pixels = std::size_t{picture.columns} * picture.rows;
     if (kind == 4) {
@@ -42,6 +43,7 @@ class PortableMapReader {
       expect(2 * pixels * picture.channels - 1);
       fill(picture, [&] { return number("a value", picture.white); });
     }
+    if (is_only_red_) picture.channels = 1;
     return picture;
   }
 
@@ -69,7 +71,7 @@ class PortableMapReader {
         if (value > picture.white) {
           fail("the value " + std::to_string(value) + " is more than white, " + std::to_string(picture.white));
         }
-        sum += value;
+        if (i == 0 || !is_only_red_) sum += value;
       }
     }
   }
@@ -122,6 +124,7 @@ class PortableMapReader {
   const std::string& bytes_;
   const std::string& name_;
   std::size_t at_ = 0;
+  bool is_only_red_ = false;
 };
 
 }  // namespace
@@ -131,8 +134,8 @@ bool isPortableMap(const std::string& bytes) {
          (isWhite(bytes[2]) || bytes[2] == '#');
 }
 
-Picture readPortableMap(const std::string& bytes, const std::string& name) {
-  return PortableMapReader(bytes, name).read();
+Picture readPortableMap(const std::string& bytes, const std::string& name, Picture::Alpha alpha) {
+  return PortableMapReader(bytes, name).read(alpha);
 }
 
 }  // namespace robosim
