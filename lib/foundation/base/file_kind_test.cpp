@@ -41,6 +41,10 @@ TEST(FileKind, IsRecognisedForFilesOfOtherPrograms) {
   EXPECT_EQ(kindOfBytes("\xff\xd8\xff\xe0"), FileKind::jpeg);
   EXPECT_EQ(kindOfBytes("# a world\n\ndefine wall model ( size [1 1 1] )\n"), FileKind::stage_world);
   EXPECT_EQ(kindOfBytes("include \"pioneer.inc\"\n"), FileKind::stage_world);
+  EXPECT_EQ(kindOfBytes("resolution 0.02\nwindow ( )\n"), FileKind::stage_world);
+  EXPECT_EQ(kindOfBytes("window\n(\n size [1 1]\n)\n"), FileKind::stage_world);
+  EXPECT_EQ(kindOfBytes("resolution: 0.05\nimage: a.png\n"), FileKind::ros_yaml);
+  EXPECT_EQ(kindOfBytes("name of a thing\n"), FileKind::unknown);
   EXPECT_EQ(kindOfBytes("# CARMEN log\nFLASER 1 1.0\n"), FileKind::carmen_log);
   EXPECT_EQ(kindOfBytes("ODOM 0 0 0 0 0 0 1.0 host 1.0\n"), FileKind::carmen_log);
   EXPECT_EQ(kindOfBytes("SQLite format 3"), FileKind::sqlite);

@@ -99,7 +99,8 @@ std::string discNote(const RobotStart& robot, const Solid& solid) {
 /// "of line 5", or "of line 5 of FILE" when this is another file than that of the reported line.
 std::string lineText(const World& world, const SourceLine& line, const SourceLine& reported,
                      const std::string& world_file) {
-  const std::string text = "of line " + std::to_string(line.number);
+  if (line.number == 0) return "";  // of a map, or a world of Stage
+  const std::string text = " of line " + std::to_string(line.number);
   return line.file == reported.file ? text : text + " of " + world.fileOf(line, world_file);
 }
 
@@ -145,7 +146,7 @@ void checkMovableObjects(const World& world, const std::string& world_file, Erro
       }
       const WorldObject& with = world.objects[other];
       if (is_free(with) && other < i) continue;  // reported with that one
-      report("overlaps the object '" + with.name + "' " + lineText(world, with.line, object.line, world_file) +
+      report("overlaps the object '" + with.name + "'" + lineText(world, with.line, object.line, world_file) +
              "; move one of them");
     }
   }
@@ -176,17 +177,16 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
       if (!overlap({disc, robot.heights}, solids[index])) continue;
       if (map) {
         reported = map;
-        const std::string line = map->line.number > 0 ? " " + line_text(map->line) : "";
-        report("overlaps an obstacle of the map '" + map->file + "'" + line + discNote(robot, solids[index]) +
-               "; move the robot");
+        report("overlaps an obstacle of the map '" + map->file + "'" + line_text(map->line) +
+               discNote(robot, solids[index]) + "; move the robot");
         continue;
       }
       const WorldObject& object = world.objects[index];
-      report("overlaps the object '" + object.name + "' " + line_text(object.line) + discNote(robot, solids[index]) +
+      report("overlaps the object '" + object.name + "'" + line_text(object.line) + discNote(robot, solids[index]) +
              "; move one of them");
     }
     if (const auto other = checked.overlapping(i)) {
-      report("overlaps the robot '" + robots[*other].name + "' " + line_text(robots[*other].line) +
+      report("overlaps the robot '" + robots[*other].name + "'" + line_text(robots[*other].line) +
              discNote(robot, {robots[*other].outline, robots[*other].heights}) + "; move one of them");
     }
     checked.add(i);

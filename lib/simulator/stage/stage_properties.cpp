@@ -95,7 +95,7 @@ const std::vector<PropertyRule>& propertyRules() {
       {"sensor", "noise", translated,
        "`std_m`, `std_per_m` of a `<laser>`'s or `<sonar>`'s `<noise>`; errors of the angle have no equivalent"},
       {"sensor", "color color_rgba name", display, "how Stage draws"},
-      {"sensor", "range_max range_min view", ignored, "Stage 4 reads `range [min max]` and `fov` only"},
+      {"sensor", "range_max range_min view", ignored, "Stage 4 reads `range` and `fov` only"},
       {"laser", "samples range_max range_min fov", translated, "`<laser>`"},
       {"laser", "resolution", ignored, "all beams are measured, none is interpolated"},
       {"blobfinder", "colors colors_count image fov pan", translated, "`<camera>` with a `<blob_finder>`, by hue"},

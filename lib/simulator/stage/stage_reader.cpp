@@ -112,8 +112,8 @@ std::vector<double> PropertyReader::numbers(const std::string& name, std::size_t
     numbers.push_back(value.number);
   }
   if (numbers.size() < least) {
-    fail(*property, "has " + std::to_string(numbers.size()) + " numbers; it must have " + std::to_string(least) +
-                        " or more, as in [" + (least == 2 ? "1 2" : "1 2 0") + "]");
+    fail(*property, "has too few numbers; it must have " + std::to_string(least) + " or more, as in [" +
+                        (least == 2 ? "1 2" : "1 2 0") + "]");
   }
   return numbers;
 }

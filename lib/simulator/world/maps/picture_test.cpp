@@ -178,5 +178,18 @@ TEST(Picture, ConvertsEveryPixelByTheRuleOfMapServer) {
   }
 }
 
+TEST(Picture, CountsOnlyRedForStage) {
+  // Red, yellow and half-transparent black, in OpenCV's order blue, green, red: only the last is dark in red.
+  cv::Mat png(1, 4, CV_8UC4);
+  png.at<cv::Vec4b>(0, 0) = {0, 0, 255, 255};
+  png.at<cv::Vec4b>(0, 1) = {0, 0, 128, 255};
+  png.at<cv::Vec4b>(0, 2) = {255, 255, 127, 255};
+  png.at<cv::Vec4b>(0, 3) = {0, 0, 0, 10};
+  const PixelInterpretation stage{.thresholds = kStageThresholds};
+  EXPECT_EQ(cellsOf(pngBytes(png), stage, Picture::Alpha::only_red), "..##\n");
+  EXPECT_EQ(cellsOf("P3 3 1 255  255 0 0  127 255 255  128 0 0", stage, Picture::Alpha::only_red), ".#.\n");
+  EXPECT_EQ(cellsOf("P2 3 1 255  127 128 205", stage, Picture::Alpha::only_red), "#..\n");
+}
+
 }  // namespace
 }  // namespace robosim
