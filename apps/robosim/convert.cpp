@@ -79,7 +79,7 @@ void convert(const ConvertArguments& arguments) {
   try {
     loadWorld(source, checkController);
   } catch (const ConfigError& error) {
-    for (const auto& line : error.errors()) std::cout << "to be mended: " << printableText(line) << '\n';
+    for (const auto& line : error.errors()) std::cout << "to be fixed: " << printableText(line) << '\n';
   }
   const auto& properties = notes.properties;
   std::cout << withCommas(properties.translated) << " of " << withCommas(properties.all) << " properties translated, "

@@ -230,7 +230,8 @@ void printSize(const fs::path& file, std::uint64_t bytes) {
 }
 
 bool isRecording(const std::string& file) {
-  return fs::is_directory(file) || (fs::is_regular_file(file) && !isMapFile(file) && looksLikeRawlog(file));
+  return fs::is_directory(file) ||
+         (fs::is_regular_file(file) && !isMapFile(file) && !isStageFile(file) && looksLikeRawlog(file));
 }
 
 /// The outputs of a recording; empty for those of a world. @throws ConfigError
@@ -333,8 +334,9 @@ void addExport(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
   command
       ->add_option("WORLD", arguments->world,
-                   "world file or map file; or a recording of RoboSim or another program, for .csv, .npz, .rawlog, "
-                   ".png, .svg and .pdf: an MRPT rawlog, or a bag of ROS 2 (.mcap, .db3 or its folder)")
+                   "world file, also of Stage (.world), or map file; or a recording of RoboSim or another program, for "
+                   ".csv, .npz, .rawlog, .png, .svg and .pdf: an MRPT rawlog, or a bag of ROS 2 (.mcap, .db3 or its "
+                   "folder)")
       ->transform(inputFile([] {
         std::vector<FileKind> kinds = kWorldKinds;
         kinds.insert(kinds.end(), kRecordingKinds.begin(), kRecordingKinds.end());

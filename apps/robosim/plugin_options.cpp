@@ -13,7 +13,7 @@ namespace robosim {
 namespace {
 
 /// These read no world.
-constexpr std::array kWithoutPlugins{"remote", "control", "generate"};
+constexpr std::array kWithoutPlugins{"remote", "control", "generate", "convert"};
 
 /// Plugins are loaded once for the whole process.
 std::vector<std::string>& pluginFiles() {

@@ -55,8 +55,8 @@ TEST_F(ErrorTexts, NameTheWorldsLineForImageErrors) {
   written("a.png", "no picture");
   expectLine(check("a.xml", "<world>\n<surface>\n<map file='a.png' resolution='1'/></surface></world>"),
              "a.xml:3: <map file=\"a.png\">: ");
-  expectLine(check("b.xml", "<world>\n<surface>\n<map file='a.jpg'/></surface></world>"),
-             "b.xml:3: <map file=\"a.jpg\">: a.jpg: is not a map by its name");
+  expectLine(check("b.xml", "<world>\n<surface>\n<map file='a.gif'/></surface></world>"),
+             "b.xml:3: <map file=\"a.gif\">: a.gif: is not a map by its name");
 }
 
 TEST_F(ErrorTexts, NameTheEncodingAndControlCharacters) {
@@ -150,7 +150,7 @@ TEST_F(ErrorTexts, NameTheNearestOptionOrSubcommand) {
 TEST_F(ErrorTexts, NameTheKindOfAFileOfAnotherProgram) {
   expectLine(refusal("check " + quoted(written("plan.bmp", std::string("BM:\0\0", 5)))),
              "plan.bmp: is a picture in the format BMP: ");
-  expectLine(refusal("run " + quoted(written("stage.world", "define wall model ( size [1 1 1] )\n"))),
+  expectLine(refusal("replay " + quoted(written("stage.world", "define wall model ( size [1 1 1] )\n"))),
              "stage.world: is a world of Stage: ");
   expectLine(refusal("replay " + quoted(written("log.clf", "# CARMEN log\nFLASER 1 1.0\n"))),
              "log.clf: is a CARMEN log: convert it by MRPT's carmen2rawlog; robosim replay takes the result");

@@ -92,6 +92,21 @@ TEST(WorldMap, SupportsUnknownAsFreeOrOccupied) {
   EXPECT_EQ(occupied("<map file='lab.pgm' resolution='1' negate='1'/>"), 4u);
 }
 
+TEST(WorldMap, HasThePixelsOfStageAndOnesThatAreNotSquare) {
+  // Two rows of three: black, 205, white; white, white, black. 205 is free in Stage.
+  const World world = parsedWithMaps(worldWithMaps(
+      "<map file='lab.pgm' map_server='stage' unknown='occupied' resolution='2' resolution_y='0.5' x='10'/>"));
+  const FloorPlan& plan = world.maps[0].plan;
+  EXPECT_EQ(plan.columns, 0u) << "walls in place of cells";
+  const PlanBox upper_left{{1, 0.75, 0}, 2, 0.5}, lower_right{{5, 0.25, 0}, 2, 0.5};
+  EXPECT_EQ(plan.boxes, (std::vector<PlanBox>{lower_right, upper_left}));
+  EXPECT_EQ(world.bounds, (Bounds2D{10, 16, 0, 1}));
+  EXPECT_EQ(parsedWithMaps(toXml(world)), world);
+  const World square = parsedWithMaps(worldWithMaps("<map file='lab.pgm' map_server='stage' resolution='2'/>"));
+  EXPECT_EQ(square.maps[0].plan.occupiedCells(), 2u);
+  EXPECT_TRUE(square.maps[0].plan.unknown.empty());
+}
+
 TEST(WorldMap, ProvidesTheStartPoseOfARobotWithoutOne) {
   const World world =
       parsedWithMaps(worldWithMaps("<map file='home.map' x='10'/>" + robot("A") + robot("B", "<x>1</x><y>1</y>") +
@@ -112,9 +127,9 @@ TEST(WorldMap, ReportsFaultsOfItsElementAtTheWorldsLine) {
   EXPECT_EQ(fault("<map file='none.yaml'/>"),
             Lines{at + "<map file=\"none.yaml\">: some/none.yaml: did not come with the world"});
   EXPECT_EQ(
-      fault("<map file='lab.jpg'/>"),
-      Lines{at + "<map file=\"lab.jpg\">: lab.jpg: is not a map by its name; maps end in .gridmap, .yaml (of ROS), "
-                 ".png, .pgm, .ppm, .pbm or .map"});
+      fault("<map file='lab.gif'/>"),
+      Lines{at + "<map file=\"lab.gif\">: lab.gif: is not a map by its name; maps end in .gridmap, .yaml (of ROS), "
+                 ".png, .jpg, .bmp, .pgm, .ppm, .pbm or .map"});
   EXPECT_EQ(fault("<map file='lab.pgm'/>"), Lines{at + "<map>: <resolution> is missing; add it"});
   EXPECT_EQ(fault("<map file='lab.pgm' resolution='nan'/>"),
             Lines{at + "<map resolution=\"nan\">: must be a finite number; write a number there"});
