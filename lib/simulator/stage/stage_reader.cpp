@@ -40,7 +40,9 @@ void Notes::add(const Place& place, const std::string& text) {
 }
 
 void Notes::ignored(const Property& property, const std::string& reason) {
-  add(property.place, quotable(property.name) + " is ignored, because " + reason);
+  std::string plain = reason;  // which may be a text of a page
+  std::erase(plain, '`');
+  add(property.place, quotable(property.name) + " is ignored, because " + plain);
 }
 
 std::vector<std::string> Notes::lines() const {

@@ -170,9 +170,11 @@ class RobotTranslator {
   /// The sensors of a device with a name have it as their label.
   void nameSensors(const std::string& name, std::size_t first) {
     if (name.empty()) return;
-    for (std::size_t i = first; i < sensors_.children.size(); ++i) {
-      sensors_.children[i].attributes.emplace_back("label", labels_.make(name));
-    }
+    auto& all = sensors_.children;
+    // A blob finder follows its camera.
+    const bool is_blob_finder = all.size() > first && all.back().name == "blob_finder";
+    if (is_blob_finder) first = all.size() - 1;
+    for (std::size_t i = first; i < all.size(); ++i) all[i].attributes.emplace_back("label", labels_.make(name));
   }
 
   /// Kinds that are no part of the robot. @return whether it is one
@@ -249,7 +251,7 @@ Size defaultSize(const std::string& kind) {
   if (kind == "camera") return {0.1, 0.07, 0.05};
   if (kind == "sensor") return {0.02, 0.02, 0.02};
   if (kind == "gripper") return {0.2, 0.3, 0.2};
-  if (kind == "blobfinder" || kind == "fiducial" || kind == "bumper" || kind == "ptz") return {0, 0, 0};
+  if (kind == "blobfinder" || kind == "fiducial" || kind == "bumper") return {0, 0, 0};
   return {};
 }
 

@@ -50,7 +50,7 @@ class SensorTranslator {
       addRays({readLaser()});
     } else if (kind == "blobfinder") {
       addBlobfinder();
-    } else if (kind == "camera" || kind == "ptz") {
+    } else if (kind == "camera") {
       addCamera();
     } else if (kind == "fiducial") {
       addFiducial();
@@ -174,6 +174,8 @@ class SensorTranslator {
     setNumber(sonar, "beam_width_deg", std::clamp(toDegrees(group[0]->fov_rad), 0.1, 120.0));
     setRange(sonar, *group[0], 100);
     setNoise(*group[0], sonar);
+    // Every surface returns an echo, at any angle.
+    for (auto& noise : sonar.children) setNumber(noise, "specular_deg", 180);
     for (const Rays* rays : group) {
       XmlElement& at = sonar.add("at");
       setPose(at, rays->robot_from_rays);
@@ -262,6 +264,11 @@ class SensorTranslator {
   }
 
   void addGripper() {
+    const auto& all = sensors_.children;
+    if (std::any_of(all.begin(), all.end(), [](const auto& sensor) { return sensor.name == "gripper"; })) {
+      note("a robot has one gripper, without its second one");
+      return;
+    }
     auto paddle = reader_.numbers("paddle_size", 2);
     if (paddle.empty()) paddle = {0.66, 0.1, 0.4};
     XmlElement& gripper = sensors_.add("gripper");

@@ -15,7 +15,7 @@ struct SensorMount {
   double highest_m = 0;  ///< output: height of the highest sensor of the device
 };
 
-/// Translates a device into sensors of a robot type: ranger, laser, sonar, blobfinder, camera, ptz, fiducial, gripper,
+/// Translates a device into sensors of a robot type: ranger, laser, sonar, blobfinder, camera, fiducial, gripper,
 /// bumper.
 /// @param sensors receives the elements
 /// @return false for a device of another kind

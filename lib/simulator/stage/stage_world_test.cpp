@@ -242,6 +242,29 @@ TEST_F(StageWorld, ReadsTheShortTuplesAndLasersOfStage2) {
   EXPECT_NE(sonars.find(R"(range_max_m="3" range_min_m="0.1")"), std::string::npos) << sonars;
 }
 
+TEST_F(StageWorld, HasTheOtherDevicesOfARobotOrNotesThem) {
+  const std::string type = typeText(R"(position ( size [0.4 0.3 0.2] localization "odom" odom_error [0 0 0 2]
+    joules 36000 watts 5
+    camera ( name "eye" resolution [64 48] fov [60 40] pantilt [10 -5] update_interval 200 )
+    blobfinder ( name "blobs" colors [ "red" "gray" ] ) gripper ( ) gripper ( ) bumper ( bcount 6 ) fiducial ( )
+    ranger ( sensor ( noise [0.01 0 0] ) ) ))");
+  // 2° are 0.0349 of a turn; 36 kJ last 2 hours at 5 W.
+  for (const char* part :
+       {R"(wheelbase_ratio="1.034906585")",
+        R"(angle_deg="10" width_px="64" height_px="48" field_of_view_deg="60" rate_hz="5" tilt_deg="-5" label="eye")",
+        R"(<blob_finder label="blobs">)", R"(<color name="red" rgb="1 0 0"/>)",
+        R"(<gripper opening_m="0.24" reach_m="0.132")", R"(<bumper segments="6"/>)", "<range_and_bearing",
+        R"(<noise std_m="0.1" std_per_m="0" specular_deg="180"/>)", R"(<battery standing_h="2" driving_h="2"/>)"}) {
+    EXPECT_NE(type.find(part), std::string::npos) << part << "\n" << type;
+  }
+  EXPECT_EQ(type.find("<gripper"), type.rfind("<gripper"));
+  worldOf("position ( drive \"car\" ptz ( ) ctrl \"fasr\" )");
+  EXPECT_EQ(translated_.notes,
+            (std::vector<std::string>{"w.world:1: 'ptz' on a robot has no equivalent",
+                                      "w.world:1: drive \"car\" is driven as differential",
+                                      "w.world:1: ctrl \"fasr\" is left out, because it is a library of Stage"}));
+}
+
 TEST_F(StageWorld, TakesTheFirstDefinitionTheLastValueAndLateMacros) {
   files_["a.inc"] = "define thing model ( size [1 1 1] )\ndefine rack model ( shelf() )\n";
   const World world = worldOf(R"(include "a.inc" all else on this line is dropped
