@@ -1,10 +1,13 @@
 #include "robots/world_source.h"
 
+#include <utility>
+
 #include "base/digest.h"
 #include "base/file_kind.h"
 #include "base/log.h"
 #include "base/xml_element.h"
 #include "robots/robot_type_includes.h"
+#include "robots/start_places.h"
 #include "world/caching_file_provider.h"
 #include "world/world_file.h"
 
@@ -56,6 +59,30 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
   return source;
 }
 
+/// Moves robots whose discs overlap something at their starts, as Stage allows for bodies that are no discs, to the
+/// nearest free places. If one has none, all stay: loadWorld() reports what is wrong.
+void moveBlockedRobots(WorldSource& source, std::vector<std::string>& notes) {
+  ErrorList errors;
+  World world = parseWorld(source.text, source.file, makeProvider(source.file, source.files), errors);
+  if (!errors.empty()) return;
+  buildFleet(world, source.file, source.robot_types, {}, errors);
+  if (errors.empty()) return;
+  std::vector<std::string> moved;
+  try {
+    for (auto& robot : std::exchange(world.robots, {})) {
+      const auto found = findStart(world, source.file, source.robot_types, robot, {robot.world_from_robot});
+      if (!found) return;
+      if (!found->warning.empty()) moved.push_back(source.file + ": robot '" + robot.name + "' " + found->warning);
+      robot.world_from_robot = found->world_from_robot;
+      world.robots.push_back(robot);
+    }
+  } catch (const ConfigError&) {
+    return;
+  }
+  source.text = toXml(world);
+  notes.insert(notes.end(), moved.begin(), moved.end());
+}
+
 WorldSource fromStage(const std::filesystem::path& file, const FileProvider& disk, StageNotes* notes) {
   requireKind(file, kWorldKinds);
   requireNameOfKind(file);
@@ -68,6 +95,8 @@ WorldSource fromStage(const std::filesystem::path& file, const FileProvider& dis
   RobotTypes types;
   // Their names in errors, as if the world were a folder: a type's file is named as the type.
   for (auto& [name, text] : world.robot_types) types[name] = {file / (name + ".xml"), text};
+  WorldSource source = completed(std::move(world.text), file, disk, std::move(types));
+  moveBlockedRobots(source, world.notes);
   const std::size_t count = world.notes.size();
   if (notes) {
     *notes = {std::move(world.notes), world.properties};
@@ -75,7 +104,7 @@ WorldSource fromStage(const std::filesystem::path& file, const FileProvider& dis
     logWarning("", file.string() + ": " + std::to_string(count) + (count == 1 ? " thing" : " things") +
                        " of Stage left out or changed; robosim check lists " + (count == 1 ? "it" : "them"));
   }
-  return completed(std::move(world.text), file, disk, std::move(types));
+  return source;
 }
 
 }  // namespace
