@@ -5,6 +5,7 @@
 #include "base/digest.h"
 #include "base/file_kind.h"
 #include "base/log.h"
+#include "base/text_table.h"
 #include "base/xml_element.h"
 #include "robots/robot_type_includes.h"
 #include "robots/start_places.h"
@@ -59,6 +60,10 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
   return source;
 }
 
+std::string metresText(const mrpt::math::TPose2D& pose) {
+  return "(" + fixed(pose.x, 3) + ", " + fixed(pose.y, 3) + ") m";
+}
+
 /// Moves robots whose discs overlap something at their starts, as Stage allows for bodies that are no discs, to the
 /// nearest free places. If one has none, all stay: loadWorld() reports what is wrong.
 void moveBlockedRobots(WorldSource& source, std::vector<std::string>& notes) {
@@ -72,8 +77,13 @@ void moveBlockedRobots(WorldSource& source, std::vector<std::string>& notes) {
     for (auto& robot : std::exchange(world.robots, {})) {
       const auto found = findStart(world, source.file, source.robot_types, robot, {robot.world_from_robot});
       if (!found) return;
-      if (!found->warning.empty()) moved.push_back(source.file + ": robot '" + robot.name + "' " + found->warning);
-      robot.world_from_robot = found->world_from_robot;
+      const auto& to = found->world_from_robot;
+      if (!found->warning.empty()) {
+        moved.push_back(source.file + ": robot '" + robot.name + "' is moved from " +
+                        metresText(robot.world_from_robot) + " to " + metresText(to) +
+                        ", the nearest place where its disc overlaps nothing");
+      }
+      robot.world_from_robot = to;
       world.robots.push_back(robot);
     }
   } catch (const ConfigError&) {

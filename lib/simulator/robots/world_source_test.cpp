@@ -60,7 +60,8 @@ TEST_F(WorldSourceOfStage, MovesRobotsWhoseDiscsOverlap) {
   EXPECT_GT(std::hypot(moved.x, moved.y), 2 * 0.2828);
   EXPECT_NEAR(moved.phi, M_PI / 2, 1e-12);
   ASSERT_EQ(notes.lines.size(), 1u);
-  EXPECT_NE(notes.lines[0].find("w.world: robot 'b' "), std::string::npos) << notes.lines[0];
+  EXPECT_NE(notes.lines[0].find("w.world: robot 'b' is moved from (0.500, 0.000) m to "), std::string::npos)
+      << notes.lines[0];
 }
 
 }  // namespace
