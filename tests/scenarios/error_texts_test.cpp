@@ -219,10 +219,10 @@ Ended parsedHere(const std::string& arguments) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   Ended ended;
-  ended.exit_code =
-      executeRobosim({addRun, addServe, addArcos, addRobot, addRemote, addGeometry, addControl, addView, addReplay,
-                      addCheck, addExport, addFit, addGenerate, addControllers, addSensors, addObservers, addBench},
-                     static_cast<int>(argv.size()), argv.data());
+  ended.exit_code = executeRobosim(
+      {addRun, addServe, addArcos, addRobot, addRemote, addGeometry, addControl, addView, addReplay, addCheck,
+       addExport, addConvert, addFit, addGenerate, addControllers, addSensors, addObservers, addBench},
+      static_cast<int>(argv.size()), argv.data());
   ended.out = testing::internal::GetCapturedStdout();
   ended.err = testing::internal::GetCapturedStderr();
   return ended;
