@@ -10,7 +10,9 @@
 namespace robosim {
 
 void addRunArguments(CLI::App& command, RunArguments& a) {
-  command.add_option("WORLD", a.world, "world file, also of Stage (.world), or map file; a shipped one also by name alone: maze_20x20")
+  command
+      .add_option("WORLD", a.world,
+                  "world file, also of Stage (.world), or map file; a shipped one also by name alone: maze_20x20")
       ->type_name("FILE")
       ->transform(inputFile(kWorldKinds))
       ->required();

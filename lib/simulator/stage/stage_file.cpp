@@ -241,7 +241,8 @@ FoundFile findStageFile(const std::string& name, const FileProvider& files) {
       if (first_error.empty()) first_error = error.what();
     }
   }
-  throw UnreadableFile(first_error);
+  throw UnreadableFile(first_error +
+                       "; searched by its base name are also the folders of STAGEPATH and that of the world");
 }
 
 StageFile parseStageFile(const std::string& text, const std::string& file, const FileProvider& files) {
