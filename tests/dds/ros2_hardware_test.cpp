@@ -1,6 +1,7 @@
 // Ros2Hardware with a robot of an Environment, whose topics are exchanged over the loopback interface.
 #include "ros2/ros2_hardware.h"
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <set>
@@ -191,6 +192,30 @@ TEST(Ros2Hardware, LetsTheRobotStandWhileARangeSensorIsSilent) {
   for (int i = 0; i < 2; ++i) takeStep(simulated, *hardware);
   EXPECT_EQ(hardware->baseState().stop_reason, "");
   EXPECT_EQ(simulated.commandedSpeed(), 0.2);
+}
+
+TEST(Ros2Hardware, StopsTheRobotWhoseScansHaveAnotherNumberOfRanges) {
+  PublishedRobot simulated("small_maze");
+  std::vector<std::string> log;
+  const auto hardware = connect(simulated, optionsFor(simulated, log));
+  hardware->command({.speed_mps = 0.2});
+  takeStep(simulated, *hardware);
+  const auto other =
+      join()->write({simulated.prefix() + "/scan", &ros::typeOf<ros::LaserScan>(), TopicDelivery::sensor});
+  ASSERT_TRUE(eventually([&] { return other->readers() > 0; }));
+  for (int i = 0; i < 8; ++i) {
+    ros::LaserScan scan;
+    scan.header.stamp = timeOf(nanosecondsOf(simulated.state().time.seconds() + 0.1));
+    scan.ranges.resize(7);
+    std::vector<std::uint8_t> bytes;
+    ros::encode(scan, bytes);
+    other->write(std::move(bytes));
+    takeStep(simulated, *hardware, {"scan"});
+  }
+  EXPECT_EQ(hardware->baseState().stop_reason, "the readings of " + simulated.prefix() + "/scan are old");
+  EXPECT_EQ(std::count(log.begin(), log.end(),
+                       simulated.prefix() + "/scan cannot be read: a scan of 7 ranges, after one of 181"),
+            1);
 }
 
 TEST(Ros2Hardware, LimitsCommandsAndSendsZerosWithoutOdometryAndAtTheEnd) {

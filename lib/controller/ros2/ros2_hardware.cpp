@@ -155,14 +155,18 @@ void Ros2Hardware::describe() {
   std::vector<SensorInfo> sensors;
   std::vector<std::unique_ptr<Channel>> channels;
   const std::lock_guard lock(mutex_);
-  const auto first = ros::decode<ros::Odometry>(channels_.front()->message);
-  base_frame_ = frameName(first.child_frame_id);
+  try {
+    base_frame_ = frameName(ros::decode<ros::Odometry>(channels_.front()->message).child_frame_id);
+  } catch (const ros::CdrError& error) {
+    throw RobotLinkError(channels_.front()->topic + " has no nav_msgs/msg/Odometry: " + error.what());
+  }
   for (std::size_t i = 0; i < info_.sensors->size(); ++i) {
     SensorInfo sensor = (*info_.sensors)[i];
     const auto is_of = [&](const auto& channel) { return channel && channel->sensor == i; };
     const bool is_there = std::any_of(channels_.begin(), channels_.end(), [&](const auto& channel) {
-      const bool needs_message = channel && channel->type == &ros::typeOf<ros::LaserScan>();
-      return is_of(channel) && (channel->is_new || (!needs_message && channel->reader->writers() > 0));
+      if (!is_of(channel)) return false;
+      if (channel->type == &ros::typeOf<ros::LaserScan>()) return channel->is_new && becomeScanner(sensor, *channel);
+      return channel->is_new || channel->reader->writers() > 0;
     });
     if (!is_there) {
       missing.push_back(sensor.label);
@@ -170,10 +174,6 @@ void Ros2Hardware::describe() {
     }
     for (auto& channel : channels_) {
       if (!is_of(channel)) continue;
-      if (channel->type == &ros::typeOf<ros::LaserScan>()) {
-        const auto scan = ros::decode<ros::LaserScan>(channel->message);
-        sensor = scannerOf(scan, mountOf(scan, sensor), sensor);
-      }
       channel->sensor = sensors.size();
       channel->readings_max_ns = measuresEchoes(sensor) ? kReadingMax_ns : 0;
       channels.push_back(std::move(channel));
@@ -194,6 +194,17 @@ void Ros2Hardware::describe() {
   start_ns_ = step_ns_ = channels_.front()->stamp_ns;
   options_.log("connected to " + (options_.prefix.empty() ? std::string("the robot") : options_.prefix) + " (" +
                options_.where + "), as a " + info_.model + "; not available: " + listed(missing));
+}
+
+bool Ros2Hardware::becomeScanner(SensorInfo& sensor, const Channel& channel) {
+  try {
+    const auto scan = ros::decode<ros::LaserScan>(channel.message);
+    sensor = scannerOf(scan, mountOf(scan, sensor), sensor);
+    return true;
+  } catch (const std::exception& error) {
+    options_.log(channel.topic + " cannot be used: " + error.what());
+    return false;
+  }
 }
 
 mrpt::math::TPose3D Ros2Hardware::mountOf(const ros::LaserScan& scan, const SensorInfo& of_type) {
@@ -304,6 +315,7 @@ void Ros2Hardware::takeReadings() {
       try {
         readMeasurement((*info_.sensors)[channel->sensor], channel->beam, channel->message,
                         readings_.measurements[channel->sensor]);
+        channel->read_ns = channel->stamp_ns;
       } catch (const std::exception& error) {
         fault = error.what();
       }
@@ -339,9 +351,9 @@ void Ros2Hardware::takeBaseState() {
 std::string Ros2Hardware::oldReading() {
   const std::lock_guard lock(mutex_);
   for (const auto& channel : channels_) {
-    if (channel->readings_max_ns == 0 || channel->stamp_ns == 0) continue;
+    if (channel->readings_max_ns == 0 || channel->read_ns == 0) continue;
     const std::uint64_t limit_ns = std::max(channel->readings_max_ns, 3 * channel->interval_ns);
-    if (step_ns_ > channel->stamp_ns + limit_ns) return "the readings of " + channel->topic + " are old";
+    if (step_ns_ > channel->read_ns + limit_ns) return "the readings of " + channel->topic + " are old";
   }
   return {};
 }

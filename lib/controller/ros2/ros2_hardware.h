@@ -79,6 +79,7 @@ class Ros2Hardware final : public RealRobot, public BaseLink {
     std::size_t sensor = 0;  ///< in info_.sensors
     std::size_t beam = 0;
     std::uint64_t readings_max_ns = 0;  ///< age from which on the robot stops; 0: any
+    std::uint64_t read_ns = 0;          ///< stamp of the last message that could be read
     std::string fault;                  ///< why the last message could not be read; empty if it could
     /// @name Guarded by mutex_
     ///@{
@@ -96,6 +97,8 @@ class Ros2Hardware final : public RealRobot, public BaseLink {
   void receive(Channel& channel, const dds::Sample& sample);
   void awaitRobot();
   void describe();
+  /// Gives a scanner the beams of its first message. @return false for one that is no scan, which is logged
+  bool becomeScanner(SensorInfo& sensor, const Channel& channel);
   mrpt::math::TPose3D mountOf(const ros::LaserScan& scan, const SensorInfo& of_type);
   bool awaitStep(const std::function<bool()>& is_over);
   /// @name With mutex_ locked
