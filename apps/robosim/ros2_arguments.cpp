@@ -26,7 +26,8 @@ void addRos2Options(CLI::App& command, Ros2Arguments& a, const char* group, bool
     dependsOn(option, ros2);
     return option->group(group);
   };
-  add(command.add_option("--domain", a.domain, "domain of ROS 2, [0, 232]; default: ROS_DOMAIN_ID, or 0"))
+  add(command.add_option("--domain", a.domain, "domain of ROS 2; without it ROS_DOMAIN_ID, or 0"))
+      ->check(wholeNumberIn(0, dds::kMaxDomain))
       ->type_name("NUMBER");
   add(command.add_option("--namespace", a.name_space, "before the names of all topics but /clock, /tf and /tf_static"))
       ->type_name("NAME");
@@ -51,18 +52,16 @@ void addRos2Options(CLI::App& command, Ros2Arguments& a, const char* group, bool
 }
 
 int ros2Domain(const Ros2Arguments& arguments) {
-  const auto checked = [](int domain, const std::string& what) {
-    if (domain >= 0 && domain <= dds::kMaxDomain) return domain;
-    throw ConfigError(what + ": must be a domain of ROS 2, from 0 to " + std::to_string(dds::kMaxDomain));
-  };
-  if (arguments.domain) return checked(*arguments.domain, "--domain " + std::to_string(*arguments.domain));
+  if (arguments.domain) return *arguments.domain;
   const char* const variable = std::getenv("ROS_DOMAIN_ID");
   if (!variable || !*variable) return 0;
   const std::string_view text = variable;
   int domain = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
-  if (error != std::errc{} || end != text.data() + text.size()) domain = -1;
-  return checked(domain, "ROS_DOMAIN_ID=" + std::string(text));
+  if (error == std::errc{} && end == text.data() + text.size() && domain >= 0 && domain <= dds::kMaxDomain)
+    return domain;
+  throw ConfigError("ROS_DOMAIN_ID=" + std::string(text) + ": must be a domain of ROS 2, from 0 to " +
+                    std::to_string(dds::kMaxDomain));
 }
 
 }  // namespace robosim

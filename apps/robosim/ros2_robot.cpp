@@ -80,8 +80,8 @@ void addRos2RobotOptions(CLI::App& command, RobotArguments& arguments) {
       ->allow_extra_args(false)
       ->group(kRealRobotGroup);
   dependsOn(command.get_option("--ros2-topic"), ros2);
-  command
-      .add_option("--domain", arguments.ros2_network.domain, "domain of ROS 2, [0, 232]; default: ROS_DOMAIN_ID, or 0")
+  command.add_option("--domain", arguments.ros2_network.domain, "domain of ROS 2; without it ROS_DOMAIN_ID, or 0")
+      ->check(wholeNumberIn(0, dds::kMaxDomain))
       ->type_name("NUMBER");
   command
       .add_option("--ros2-interface", arguments.ros2_network.interface,

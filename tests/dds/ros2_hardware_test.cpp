@@ -213,9 +213,10 @@ TEST(Ros2Hardware, StopsTheRobotWhoseScansHaveAnotherNumberOfRanges) {
     takeStep(simulated, *hardware, {"scan"});
   }
   EXPECT_EQ(hardware->baseState().stop_reason, "the readings of " + simulated.prefix() + "/scan are old");
-  EXPECT_EQ(std::count(log.begin(), log.end(),
-                       simulated.prefix() + "/scan cannot be read: a scan of 7 ranges, after one of 181"),
-            1);
+  const auto is_about_ranges = [](const std::string& line) {
+    return line.find("/scan cannot be read: a scan of 7 ranges, after one of ") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(log.begin(), log.end(), is_about_ranges), 1);
 }
 
 TEST(Ros2Hardware, LimitsCommandsAndSendsZerosWithoutOdometryAndAtTheEnd) {

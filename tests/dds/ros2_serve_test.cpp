@@ -100,8 +100,8 @@ TEST(Ros2Serve, RefusesOtherMachinesUnlessTheyAreTrusted) {
   }
   const Ended no_domain = runProgram(serve + "--domain 233");
   EXPECT_EQ(no_domain.exit_code, 1);
-  EXPECT_NE(no_domain.err.find("--domain 233: must be a domain of ROS 2, from 0 to 232"), std::string::npos)
-      << no_domain.err;
+  EXPECT_NE(no_domain.err.find("--domain"), std::string::npos) << no_domain.err;
+  EXPECT_NE(no_domain.err.find("232"), std::string::npos) << no_domain.err;
   EXPECT_EQ(runProgram(serve + "--namespace 1team").exit_code, 1);
 }
 
