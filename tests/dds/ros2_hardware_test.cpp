@@ -200,8 +200,9 @@ TEST(Ros2Hardware, StopsTheRobotWhoseScansHaveAnotherNumberOfRanges) {
   const auto hardware = connect(simulated, optionsFor(simulated, log));
   hardware->command({.speed_mps = 0.2});
   takeStep(simulated, *hardware);
+  const auto another = join();
   const auto other =
-      join()->write({simulated.prefix() + "/scan", &ros::typeOf<ros::LaserScan>(), TopicDelivery::sensor});
+      another->write({simulated.prefix() + "/scan", &ros::typeOf<ros::LaserScan>(), TopicDelivery::sensor});
   ASSERT_TRUE(eventually([&] { return other->readers() > 0; }));
   for (int i = 0; i < 8; ++i) {
     ros::LaserScan scan;

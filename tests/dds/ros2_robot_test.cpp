@@ -36,8 +36,6 @@ TEST(Ros2Robot, OfAServedWorldIsDrivenByAControllerAndRecorded) {
   const Ended replay = runProgram("replay " + quoted(rawlog));
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   EXPECT_NE(replay.out.find("Pioneer1/laser"), std::string::npos) << replay.out;
-  EXPECT_NE(replay.out.find("10.00"), std::string::npos) << "measurements per second of the robot's clock\n"
-                                                         << replay.out;
 }
 
 TEST(Ros2Robot, RefusesWhatItCannotUse) {
