@@ -540,7 +540,7 @@ struct MeshFile {
 
 struct Marker {
   static constexpr std::int32_t kArrow = 0, kCube = 1, kSphere = 2, kCylinder = 3, kLineList = 5, kText = 9;  ///< type
-  static constexpr std::int32_t kAdd = 0, kDelete = 2, kDeleteAll = 3;                            ///< action
+  static constexpr std::int32_t kAdd = 0, kDelete = 2, kDeleteAll = 3;  ///< action
   Header header;
   std::string ns;
   std::int32_t id = 0, type = 0, action = 0;
