@@ -8,6 +8,7 @@
 #include "arcos/client/open_channel.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
+#include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/device_library.h"
 #include "robosim/real_robot.h"

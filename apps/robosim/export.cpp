@@ -26,6 +26,7 @@
 #include "run/output_files.h"
 #include "world/maps/map_writer.h"
 #include "world/raster.h"
+#include "world/world_file.h"
 
 namespace robosim {
 namespace {

@@ -231,9 +231,12 @@ void addRobot(CLI::App& program) {
                    "MCAP with topics of ROS 2")
       ->type_name("FILE")
       ->check(fileName());
-  for (const char* name : {"--robot-type", "--record"}) command->get_option(name)->group(kRealRobotGroup);
   addArcosRobotOptions(*command, *a);
   addRos2RobotOptions(*command, *a);
+  for (const char* name : {"--robot-type", "--record"}) {
+    dependsOn(command->get_option(name), {command->get_option("--arcos"), command->get_option("--ros2")})
+        ->group(kRealRobotGroup);
+  }
   const CLI::Option* remote_port = command->get_option("--remote-port");
   for (const char* name : {"--dead-man", "--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"}) {
     dependsOn(command->get_option(name), remote_port)->group("Remote control");
@@ -243,12 +246,9 @@ void addRobot(CLI::App& program) {
     command->get_option(name)->excludes("--arcos")->excludes("--ros2");
   }
   command->footer(kRobotExamples);
-  command->callback([a, command] {
+  command->callback([a] {
     if (!a->arcos.empty()) return driveArcosRobot(*a);
     if (!a->ros2.empty()) return driveRos2Robot(*a);
-    for (const char* name : {"--robot-type", "--record"}) {
-      if (command->count(name) > 0) throw CLI::RequiresError(name, "--arcos or --ros2");
-    }
     if (a->names.empty()) throw CLI::RequiredError("NAME");
     a->separate_processes ? driveInSeparateProcesses(*a) : driveRobots(*a);
   });

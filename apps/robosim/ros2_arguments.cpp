@@ -9,6 +9,7 @@
 #include "base/error_list.h"
 #include "dds/participant.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/subcommands.h"
 
 namespace robosim {

@@ -8,6 +8,7 @@
 
 #include "base/error_list.h"
 #include "base/interrupt.h"
+#include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/dds_library.h"
 #include "robosim/real_robot.h"
