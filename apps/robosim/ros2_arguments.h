@@ -3,9 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "robosim/cli11_names.h"
 
 namespace robosim {
 
