@@ -6,6 +6,7 @@
 #include "base/error_list.h"
 #include "ros/cdr.h"
 #include "serving/ros2_outlet.h"
+#include "topics/robot_topics.h"
 
 namespace robosim {
 namespace {
@@ -26,12 +27,11 @@ PlaceBody placeOf(const std::string& robot, const ros::PoseWithCovarianceStamped
   const std::string& frame = message.header.frame_id;
   if (!frame.empty() && frame != "map") throw ConfigError("a pose in the frame " + frame + "; it must be in map");
   const auto& [position, q] = message.pose.pose;
-  // Yaw of a rotation about any axis; a quaternion need not be normalised.
-  const double across = 2 * (q.w * q.z + q.x * q.y), along = q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z;
-  const bool is_valid = std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(across) &&
-                        std::isfinite(along) && (across != 0 || along != 0);
+  const double squared_length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  const bool is_valid =
+      std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(squared_length) && squared_length > 0;
   if (!is_valid) throw ConfigError("a pose whose position or orientation is no finite number");
-  return {robot, position.x, position.y, std::atan2(across, along)};
+  return {robot, position.x, position.y, yawOf(q)};
 }
 
 Ros2Changes::Ros2Changes(dds::Participant& participant, std::string name_space, std::string peer,

@@ -40,8 +40,7 @@ void addIfMissing(std::vector<SensorInfo>& sensors, SensorKind kind) {
 std::uint64_t stampOf(const ros::MessageType& type, std::span<const std::uint8_t> message) {
   ros::Time stamp;
   if (&type != &ros::typeOf<ros::UInt8MultiArray>()) ros::CdrReader(message).read(stamp);
-  if (stamp.sec > 0 || stamp.nanosec > 0)
-    return static_cast<std::uint64_t>(std::max(stamp.sec, 0)) * kNsPerS + stamp.nanosec;
+  if (const std::int64_t stamp_ns = nanosecondsOf(stamp); stamp_ns > 0) return static_cast<std::uint64_t>(stamp_ns);
   return static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::nanoseconds>(Ros2Hardware::Clock::now().time_since_epoch()).count());
 }
@@ -310,7 +309,10 @@ void Ros2Hardware::takeReadings() {
   {
     const std::lock_guard lock(mutex_);
     for (const auto& channel : channels_) {
-      if (!std::exchange(channel->is_new, false)) continue;
+      if (!std::exchange(channel->is_new, false)) {
+        if (auto* const image = std::get_if<Image>(&readings_.measurements[channel->sensor])) image->jpeg.clear();
+        continue;
+      }
       std::string fault;
       try {
         readMeasurement((*info_.sensors)[channel->sensor], channel->beam, channel->message,

@@ -45,8 +45,6 @@ class Ros2Hardware final : public RealRobot, public BaseLink {
   };
   static constexpr double kPeriod_s = 0.1;
   static constexpr std::chrono::seconds kAppearanceMax{15};  ///< of the robot's first messages
-  static constexpr std::chrono::seconds kSilenceWarning{1};  ///< without odometry
-  static constexpr std::chrono::seconds kSilenceMax{8};
   /// Age of a reading of a range sensor, or three times its interval.
   static constexpr std::uint64_t kReadingMax_ns = 500'000'000;
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <stdexcept>
 
@@ -19,6 +20,9 @@ class RobotLinkError : public std::runtime_error {
 ///     robot.close();
 class RealRobot : public Hardware {
  public:
+  static constexpr std::chrono::seconds kSilenceWarning{1};  ///< without readings: logged, and the robot is stopped
+  static constexpr std::chrono::seconds kSilenceMax{8};      ///< without readings, as in ARIA's programs
+
   /// Sends the command, and waits for the next readings. @return false when the program is interrupted, and at the end
   /// of a log @throws RobotLinkError when the connection is lost, or the robot is silent for too long
   virtual bool nextStep() = 0;

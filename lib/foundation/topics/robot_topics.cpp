@@ -62,6 +62,10 @@ std::string topicOf(const SensorInfo& sensor) {
 
 ros::Pose poseOf(const TPose2D& pose) { return {{pose.x, pose.y, 0}, rotationOf(pose.phi, 0, 0)}; }
 
+double yawOf(const ros::Quaternion& q) {
+  return std::atan2(2 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z);
+}
+
 TopicMessage staticTransforms(std::span<const RobotTopics> robots, std::uint64_t time_ns) {
   ros::TFMessage message;
   for (const auto& robot : robots) {

@@ -105,5 +105,7 @@ TopicMessage staticTransforms(std::span<const RobotTopics> robots, std::uint64_t
 
 /// The pose of a body in plan.
 ros::Pose poseOf(const mrpt::math::TPose2D& pose);
+/// The yaw of a rotation about any axis, which need not be normalised [rad, (-π, π]]; 0 for none.
+double yawOf(const ros::Quaternion& rotation);
 
 }  // namespace robosim

@@ -7,21 +7,13 @@
 
 #include "hardware/scan_geometry.h"
 #include "ros/cdr.h"
+#include "topics/robot_topics.h"
 #include "topics/sensor_topics.h"
 
 namespace robosim {
 namespace {
 
 constexpr std::size_t kBeamsMax = 1 << 16;
-
-std::uint64_t nanosecondsOf(const ros::Header& header) {
-  const auto& [sec, nanosec] = header.stamp;
-  return sec < 0 ? 0 : static_cast<std::uint64_t>(sec) * 1'000'000'000 + nanosec;
-}
-
-double yawOf(const ros::Quaternion& q) {
-  return std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
-}
 
 /// The echo of a range by REP 117: infinite for none, negative infinite for one below the minimum, NaN if invalid.
 Echo echoOf(const SensorInfo& sensor, std::size_t beam, float range_m) {
@@ -38,11 +30,10 @@ struct Reading {
   std::size_t beam;
   std::span<const std::uint8_t> message;
 
-  std::uint64_t operator()(Echoes& echoes) const {
+  void operator()(Echoes& echoes) const {
     if (sensor.kind != SensorKind::laser || !toScanGeometry(sensor.beams)) {
-      const auto range = ros::decode<ros::Range>(message);
-      echoes.at(beam) = echoOf(sensor, beam, range.range);
-      return nanosecondsOf(range.header);
+      echoes.at(beam) = echoOf(sensor, beam, ros::decode<ros::Range>(message).range);
+      return;
     }
     const auto scan = ros::decode<ros::LaserScan>(message);
     if (scan.ranges.size() != echoes.size()) {
@@ -50,45 +41,39 @@ struct Reading {
                                std::to_string(echoes.size()));
     }
     for (std::size_t i = 0; i < echoes.size(); ++i) echoes[i] = echoOf(sensor, i, scan.ranges[i]);
-    return nanosecondsOf(scan.header);
   }
-  std::uint64_t operator()(Scalar& scalar) const {
+  void operator()(Scalar& scalar) const {
     if (sensor.kind == SensorKind::heat) {
-      const auto heat = ros::decode<ros::Temperature>(message);
-      return scalar.value = heat.temperature, nanosecondsOf(heat.header);
+      scalar.value = ros::decode<ros::Temperature>(message).temperature;
+    } else if (sensor.kind == SensorKind::battery) {
+      const float volts = ros::decode<ros::BatteryState>(message).voltage;
+      scalar.value = std::isfinite(volts) ? volts : 0;
+    } else {
+      scalar.value = yawOf(ros::decode<ros::Imu>(message).orientation);
     }
-    if (sensor.kind == SensorKind::battery) {
-      const auto battery = ros::decode<ros::BatteryState>(message);
-      return scalar.value = std::isfinite(battery.voltage) ? battery.voltage : 0, nanosecondsOf(battery.header);
-    }
-    const auto imu = ros::decode<ros::Imu>(message);
-    return scalar.value = yawOf(imu.orientation), nanosecondsOf(imu.header);
   }
-  std::uint64_t operator()(Contacts& contacts) const {
+  void operator()(Contacts& contacts) const {
     const auto array = ros::decode<ros::UInt8MultiArray>(message);
     for (std::size_t i = 0; i < std::min(array.data.size(), contacts.pressed.size()); ++i) {
       contacts.pressed[i] = array.data[i] != 0 ? 1 : 0;
     }
-    return 0;
   }
-  std::uint64_t operator()(Odometry& odometry) const {
+  void operator()(Odometry& odometry) const {
     const auto read = ros::decode<ros::Odometry>(message);
     const auto& pose = read.pose.pose;
     odometry = {{pose.position.x, pose.position.y, yawOf(pose.orientation)},
                 read.twist.twist.linear.x,
                 read.twist.twist.angular.z};
-    return nanosecondsOf(read.header);
   }
-  std::uint64_t operator()(Image& image) const {
+  void operator()(Image& image) const {
     const auto picture = ros::decode<ros::CompressedImage>(message);
     std::string jpeg(picture.data.begin(), picture.data.end());
     if (const std::string fault = Description<Image>::fileFaultOf(jpeg); !fault.empty()) {
       throw std::runtime_error("a picture in the format '" + picture.format + "': " + fault);
     }
     image.jpeg = std::move(jpeg);
-    return nanosecondsOf(picture.header);
   }
-  std::uint64_t operator()(auto&) const { return 0; }  // no topics
+  void operator()(auto&) const {}  // no topics
 };
 
 }  // namespace
@@ -149,9 +134,9 @@ SensorInfo scannerOf(const ros::LaserScan& scan, const mrpt::math::TPose3D& robo
   return scanner;
 }
 
-std::uint64_t readMeasurement(const SensorInfo& sensor, std::size_t beam, std::span<const std::uint8_t> message,
-                              Measurement& measurement) {
-  return std::visit(Reading{sensor, beam, message}, measurement);
+void readMeasurement(const SensorInfo& sensor, std::size_t beam, std::span<const std::uint8_t> message,
+                     Measurement& measurement) {
+  std::visit(Reading{sensor, beam, message}, measurement);
 }
 
 }  // namespace robosim

@@ -33,10 +33,9 @@ SensorInfo scannerOf(const ros::LaserScan& scan, const mrpt::math::TPose3D& robo
 
 /// Sets the measurement, or one echo of it, from a message of a source. A scan must be of scannerOf() this sensor. An
 /// Odometry is in its own frame, whatever the start.
-/// @return the message's stamp [ns]; 0 for one without
 /// @throws ros::CdrError for bytes that are no such message
 /// @throws std::runtime_error for a scan of another number of beams, and a picture that is no JPEG
-std::uint64_t readMeasurement(const SensorInfo& sensor, std::size_t beam, std::span<const std::uint8_t> message,
-                              Measurement& measurement);
+void readMeasurement(const SensorInfo& sensor, std::size_t beam, std::span<const std::uint8_t> message,
+                     Measurement& measurement);
 
 }  // namespace robosim

@@ -42,4 +42,8 @@ ros::Time timeOf(std::uint64_t time_ns) {
   return {static_cast<std::int32_t>(time_ns / 1'000'000'000), static_cast<std::uint32_t>(time_ns % 1'000'000'000)};
 }
 
+std::int64_t nanosecondsOf(const ros::Time& time) {
+  return static_cast<std::int64_t>(time.sec) * 1'000'000'000 + time.nanosec;
+}
+
 }  // namespace robosim

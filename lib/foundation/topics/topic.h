@@ -51,5 +51,7 @@ std::string topicNamePart(const std::string& text);
 /// Nanoseconds of a time in seconds, rounded.
 std::uint64_t nanosecondsOf(double time_s);
 ros::Time timeOf(std::uint64_t time_ns);
+/// Nanoseconds since the beginning of the clock; negative before it.
+std::int64_t nanosecondsOf(const ros::Time& time);
 
 }  // namespace robosim

@@ -46,8 +46,6 @@ class ArcosHardware final : public RealRobot, public BaseLink {
     std::function<bool()> interrupted = [] { return false; };                 ///< ends the waits
   };
   static constexpr std::chrono::seconds kHandshakeMax{15};
-  static constexpr std::chrono::seconds kSilenceWarning{1};  ///< without a SIP
-  static constexpr std::chrono::seconds kSilenceMax{8};      ///< as ARIA's programs
 
   /// Connects, enables the motors, and waits for the first readings. Logs what the robot is, and which sensors of its
   /// type it lacks. @throws RobotLinkError @throws ConfigError for an unknown type

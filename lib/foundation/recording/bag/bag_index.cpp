@@ -11,6 +11,7 @@
 #include "base/text_table.h"
 #include "recording/bag/bag_names.h"
 #include "ros/cdr.h"
+#include "topics/topic.h"
 
 namespace robosim {
 namespace {

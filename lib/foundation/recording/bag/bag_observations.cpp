@@ -21,6 +21,7 @@
 #include "recording/echo_ranges.h"
 #include "ros/cdr.h"
 #include "topics/frame_tree.h"
+#include "topics/topic.h"
 
 namespace robosim {
 namespace {
@@ -196,10 +197,6 @@ std::span<const BagUseRow> bagUses() { return kUses; }
 BagUse bagUseOf(const std::string& type) {
   const auto row = std::find_if(kUses.begin(), kUses.end(), [&](const BagUseRow& one) { return one.type == type; });
   return row == kUses.end() ? BagUse::none : row->use;
-}
-
-std::int64_t nanosecondsOf(const ros::Time& time) {
-  return static_cast<std::int64_t>(time.sec) * 1'000'000'000 + time.nanosec;
 }
 
 mrpt::Clock::time_point timestampOf(std::int64_t time_ns) {

@@ -49,8 +49,6 @@ struct BagHeader {
 /// @throws ros::CdrError
 BagHeader bagHeaderOf(const std::string& type, std::span<const std::uint8_t> data);
 
-/// Nanoseconds since 1970.
-std::int64_t nanosecondsOf(const ros::Time& time);
 /// MRPT's timestamp of nanoseconds since 1970 (its unit is 100 ns).
 mrpt::Clock::time_point timestampOf(std::int64_t time_ns);
 
