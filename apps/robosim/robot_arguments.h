@@ -32,8 +32,8 @@ struct RobotArguments {
   std::string arcos;  ///< channel to a robot that speaks ARCOS, as openChannel(); empty: a robot of a served world
   std::string ros2;   ///< namespace of a robot that speaks ROS 2, "/" for none; empty: another robot
   std::vector<std::string> ros2_topics;  ///< "scan=/base_scan"
-  Ros2Arguments ros2_network;            ///< domain, interface and peers
-  std::string robot_type;                ///< of a real robot; empty: what a robot that speaks ARCOS reports
+  Ros2Network ros2_network;
+  std::string robot_type;  ///< of a real robot; empty: what a robot that speaks ARCOS reports
   std::string arcos_log;
   std::string laser;  ///< serial device of an LMS200; empty: none
   std::string record;

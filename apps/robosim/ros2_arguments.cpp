@@ -13,6 +13,22 @@
 #include "robosim/subcommands.h"
 
 namespace robosim {
+namespace {
+
+/// The domain of ROS_DOMAIN_ID, or 0. @throws ConfigError
+int domainOfEnvironment() {
+  const char* const variable = std::getenv("ROS_DOMAIN_ID");
+  if (!variable || !*variable) return 0;
+  const std::string_view text = variable;
+  int domain = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
+  if (error == std::errc{} && end == text.data() + text.size() && domain >= 0 && domain <= dds::kMaxDomain)
+    return domain;
+  throw ConfigError("ROS_DOMAIN_ID=" + std::string(text) + ": must be a domain of ROS 2, from 0 to " +
+                    std::to_string(dds::kMaxDomain));
+}
+
+}  // namespace
 
 void addRos2Options(CLI::App& command, Ros2Arguments& a, const char* group, bool has_network) {
   const CLI::Option* const ros2 =
@@ -27,9 +43,7 @@ void addRos2Options(CLI::App& command, Ros2Arguments& a, const char* group, bool
     dependsOn(option, ros2);
     return option->group(group);
   };
-  add(command.add_option("--domain", a.domain, "domain of ROS 2; without it ROS_DOMAIN_ID, or 0"))
-      ->check(wholeNumberIn(0, dds::kMaxDomain))
-      ->type_name("NUMBER");
+  addRos2NetworkOptions(command, a.network, ros2, group, has_network);
   add(command.add_option("--namespace", a.name_space, "before the names of all topics but /clock, /tf and /tf_static"))
       ->type_name("NAME");
   add(command.add_option("--ros2-tf", a.trees,
@@ -41,28 +55,34 @@ void addRos2Options(CLI::App& command, Ros2Arguments& a, const char* group, bool
                        "let ROS 2 place robots by /<robot>/initialpose, and add and remove robots and objects by "
                        "/robosim/spawn and /robosim/remove"));
   if (!has_network) return;
-  add(command.add_option("--ros2-interface", a.interface,
-                         "name or address of the network interface by which other machines are found and served"))
-      ->type_name("NAME|ADDRESS");
-  add(command.add_option("--ros2-peer", a.peers, "address of another machine, for networks without multicast"))
-      ->allow_extra_args(false)
-      ->type_name("ADDRESS");
   add(command.add_flag("--ros2-unprotected", a.is_unprotected,
                        "let all programs that reach the domain read the topics and drive, without passwords or "
                        "encryption; needed for other machines, and beside --tokens"));
 }
 
-int ros2Domain(const Ros2Arguments& arguments) {
-  if (arguments.domain) return *arguments.domain;
-  const char* const variable = std::getenv("ROS_DOMAIN_ID");
-  if (!variable || !*variable) return 0;
-  const std::string_view text = variable;
-  int domain = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
-  if (error == std::errc{} && end == text.data() + text.size() && domain >= 0 && domain <= dds::kMaxDomain)
-    return domain;
-  throw ConfigError("ROS_DOMAIN_ID=" + std::string(text) + ": must be a domain of ROS 2, from 0 to " +
-                    std::to_string(dds::kMaxDomain));
+void addRos2NetworkOptions(CLI::App& command, Ros2Network& network, const CLI::Option* ros2, const char* group,
+                           bool has_network) {
+  const auto add = [&](CLI::Option* option) { return dependsOn(option, ros2)->group(group); };
+  add(command.add_option("--domain", network.domain, "domain of ROS 2; without it ROS_DOMAIN_ID, or 0"))
+      ->check(wholeNumberIn(0, dds::kMaxDomain))
+      ->type_name("NUMBER");
+  if (!has_network) return;
+  add(command.add_option("--ros2-interface", network.interface,
+                         "name or address of the network interface by which other machines are found; without it this "
+                         "machine only"))
+      ->type_name("NAME|ADDRESS");
+  add(command.add_option("--ros2-peer", network.peers, "address of another machine, for networks without multicast"))
+      ->allow_extra_args(false)
+      ->type_name("ADDRESS");
+}
+
+dds::Options ddsOptions(const Ros2Network& network, const std::function<void(const std::string&)>& log) {
+  dds::Options options;
+  options.domain = network.domain ? *network.domain : domainOfEnvironment();
+  options.interface = network.interface;
+  options.peers = network.peers;
+  options.log = log;
+  return options;
 }
 
 }  // namespace robosim

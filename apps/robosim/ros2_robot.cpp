@@ -46,7 +46,7 @@ std::map<std::string, std::string> topicsOf(const std::vector<std::string>& text
   return topics;
 }
 
-Ros2Hardware::Options ros2HardwareOptions(const RobotArguments& arguments, const Interrupt& interrupt) {
+Ros2Hardware::Options ros2HardwareOptions(const RobotArguments& arguments, int domain, const Interrupt& interrupt) {
   Ros2Hardware::Options options;
   options.prefix = prefixOf(arguments.ros2);
   options.type = robotTypeNamed(arguments.robot_type).info;
@@ -56,7 +56,7 @@ Ros2Hardware::Options ros2HardwareOptions(const RobotArguments& arguments, const
     options.name = options.prefix.substr(options.prefix.rfind('/') + 1);
   }
   options.topics = topicsOf(arguments.ros2_topics);
-  options.where = "domain " + std::to_string(ros2Domain(arguments.ros2_network));
+  options.where = "domain " + std::to_string(domain);
   options.log = logRobot;
   options.interrupted = [&interrupt] { return interrupt.isRequested(); };
   return options;
@@ -81,20 +81,7 @@ void addRos2RobotOptions(CLI::App& command, RobotArguments& arguments) {
       ->allow_extra_args(false)
       ->group(kRealRobotGroup);
   dependsOn(command.get_option("--ros2-topic"), ros2);
-  command.add_option("--domain", arguments.ros2_network.domain, "domain of ROS 2; without it ROS_DOMAIN_ID, or 0")
-      ->check(wholeNumberIn(0, dds::kMaxDomain))
-      ->type_name("NUMBER");
-  command
-      .add_option("--ros2-interface", arguments.ros2_network.interface,
-                  "name or address of the network interface by which the robot is found; default: this machine only")
-      ->type_name("NAME|ADDRESS");
-  command
-      .add_option("--ros2-peer", arguments.ros2_network.peers, "address of the robot, for networks without multicast")
-      ->allow_extra_args(false)
-      ->type_name("ADDRESS");
-  for (const char* name : {"--domain", "--ros2-interface", "--ros2-peer"}) {
-    dependsOn(command.get_option(name), ros2)->group(kRealRobotGroup);
-  }
+  addRos2NetworkOptions(command, arguments.ros2_network, ros2, kRealRobotGroup, true);
 }
 
 void driveRos2Robot(const RobotArguments& arguments) {
@@ -105,13 +92,9 @@ void driveRos2Robot(const RobotArguments& arguments) {
         "--robot-type p3dx; the types are the files of worlds/robots/");
   }
   const Interrupt interrupt;
-  dds::Options dds;
-  dds.domain = ros2Domain(arguments.ros2_network);
-  dds.interface = arguments.ros2_network.interface;
-  dds.peers = arguments.ros2_network.peers;
-  dds.log = logRobot;
+  const dds::Options dds = ddsOptions(arguments.ros2_network, logRobot);
   const std::shared_ptr<dds::Participant> participant = joinDds(dds);
-  Ros2Hardware robot(participant, ros2HardwareOptions(arguments, interrupt));
+  Ros2Hardware robot(participant, ros2HardwareOptions(arguments, dds.domain, interrupt));
   driveRealRobot(robot, "ros2:" + arguments.ros2, arguments);
 }
 

@@ -9,7 +9,7 @@
 #include "base/log.h"
 #include "base/seconds.h"
 #include "net/host_port.h"
-#include "robosim/live_options.h"
+#include "robosim/ros2_options.h"
 #include "robosim/run_command.h"
 #include "robosim/subcommands.h"
 #include "serving/live_serving.h"

@@ -15,7 +15,7 @@
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/connection.h"
-#include "robosim/live_options.h"
+#include "robosim/ros2_options.h"
 #include "robosim/run_arguments.h"
 #include "robosim/serve_arguments.h"
 #include "robosim/subcommands.h"

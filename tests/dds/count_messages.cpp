@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
                                     bytes += message.size();
                                   }));
   }
+  // What is measured is what arrives in this time.
   std::this_thread::sleep_for(std::chrono::duration<double>(std::atof(argv[2])));
   std::cout << messages << " messages, " << bytes << " bytes\n";
 }

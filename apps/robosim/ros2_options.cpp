@@ -1,4 +1,4 @@
-#include "robosim/live_options.h"
+#include "robosim/ros2_options.h"
 
 #include "base/error_list.h"
 #include "robosim/dds_library.h"
@@ -9,15 +9,12 @@ std::optional<Ros2Options> ros2Options(const Ros2Arguments& arguments, bool has_
                                        const std::function<void(const std::string&)>& log) {
   if (!arguments.is_on) return std::nullopt;
   Ros2Options options;
-  options.dds.domain = ros2Domain(arguments);
-  options.dds.interface = arguments.interface;
-  options.dds.peers = arguments.peers;
-  options.dds.log = log;
+  options.dds = ddsOptions(arguments.network, log);
   options.name_space = ros2Namespace(arguments.name_space);
   options.frames = arguments.trees == "robot" ? FrameNames::plain : FrameNames::prefixed;
   options.join = joinDds;
   if (!options.dds.isLocal() && !arguments.is_unprotected) {
-    throw ConfigError(std::string(arguments.interface.empty() ? "--ros2-peer" : "--ros2-interface") +
+    throw ConfigError(std::string(options.dds.interface.empty() ? "--ros2-peer" : "--ros2-interface") +
                       ": other machines could read all topics and drive the robots, because DDS has neither passwords "
                       "nor encryption here; leave it out, or add --ros2-unprotected in a network that you trust");
   }
