@@ -85,7 +85,10 @@ struct Peer::Impl {
     }
     ~Writer() override { publisher_->delete_datawriter(writer_); }
     int matched() const override { return matched_; }
-    void write(Bytes message) override { writer_->write(&message); }
+    void write(const Bytes& message) override {
+      Bytes sent = message;  // Fast DDS takes what is not constant
+      writer_->write(&sent);
+    }
     void on_publication_matched(DataWriter*, const PublicationMatchedStatus& status) override {
       matched_ = status.current_count;
     }

@@ -92,7 +92,7 @@ class Peer {
    public:
     virtual ~Endpoint() = default;
     virtual int matched() const = 0;  ///< number of endpoints of others
-    virtual void write(std::vector<std::uint8_t> /*message*/) {}
+    virtual void write(const std::vector<std::uint8_t>& /*message*/) {}
   };
   using OnBytes = std::function<void(std::vector<std::uint8_t>)>;
   /// @param topic "rt/robot1/scan" @param type "sensor_msgs::msg::dds_::LaserScan_"

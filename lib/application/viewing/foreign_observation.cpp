@@ -313,7 +313,7 @@ void updateDescription(SensorInfo& sensor, const CObservation& observation) {
     }
   } else if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
     sensor.kind = SensorKind::sonar;
-    sensor.beam_width_rad = coneAperture_rad(*range);
+    sensor.beam_width_rad = coneAperture(*range);
     update_ranges(*range, range->maxSensorDistance);
   } else {
     sensor.kind = SensorKind::heat;

@@ -98,7 +98,7 @@ TEST(Observations, RecordASonarRingAsOneObservation) {
   const auto range = recorded<CObservationRange>(sensor, Echoes{{1.25f, {}}, {4.5f, {}}});
   EXPECT_EQ(range.minSensorDistance, 0.15f);
   EXPECT_EQ(range.maxSensorDistance, 5.0f);
-  EXPECT_EQ(coneAperture_rad(range), 0.35f);
+  EXPECT_EQ(coneAperture(range), 0.35f);
   ASSERT_EQ(range.sensedData.size(), 2u);
   EXPECT_EQ(range.sensedData[0].sensorID, 0);
   EXPECT_EQ(range.sensedData[0].sensorPose, mrpt::math::TPose3D(0.1, 0.2, 0.3, 0.4, 0, 0));
@@ -126,7 +126,7 @@ TEST(Observations, RecordNoEchoAsSlightlyMoreThanTheMaximumRange) {
 TEST(Observations, RecordAThinBeamWithASmallCone) {
   const auto sensor = rangeSensor(SensorKind::infrared, "infrared", {beamAt(0, 0, 0, 0)}, 1, 1);
   const auto range = recorded<CObservationRange>(sensor, Echoes(1));
-  EXPECT_EQ(coneAperture_rad(range), 0.001f);
+  EXPECT_EQ(coneAperture(range), 0.001f);
 }
 
 TEST(Observations, RecordAScanningLaserAsA2dScan) {

@@ -22,7 +22,7 @@ class RangeCodec : public CodecOf<CObservationRange, Echoes> {
   void init(CObservationRange& range, const SensorInfo& sensor) const override {
     range.minSensorDistance = static_cast<float>(sensor.range_min_m);
     range.maxSensorDistance = static_cast<float>(sensor.range_max_m);
-    coneAperture_rad(range) = std::max(static_cast<float>(sensor.beam_width_rad), kThinBeam_rad);
+    coneAperture(range) = std::max(static_cast<float>(sensor.beam_width_rad), kThinBeam_rad);
     range.sensedData.resize(sensor.beams.size());
     for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
       range.sensedData[i].sensorID = static_cast<std::uint16_t>(i);

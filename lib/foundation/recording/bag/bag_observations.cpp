@@ -91,7 +91,7 @@ CObservation::Ptr observationOf(const BagSensor& sensor, const AnyRange& range) 
   auto made = mrpt::obs::CObservationRange::Create();
   made->minSensorDistance = range.min_range;
   made->maxSensorDistance = range.max_range;
-  coneAperture_rad(*made) = range.field_of_view;
+  coneAperture(*made) = range.field_of_view;
   auto& sensed = made->sensedData.emplace_back();
   sensed.sensorID = sensor.id;
   sensed.sensorPose = sensor.robot_from_frame.asTPose();

@@ -145,7 +145,7 @@ TEST_F(BagSourceTest, ReadsTheRangesOfARingAsOneObservation) {
   ASSERT_EQ(read.size(), 2u);
   const auto& ring = dynamic_cast<const CObservationRange&>(*read[1]);
   EXPECT_EQ(ring.sensorLabel, "a/sonar");
-  EXPECT_EQ(coneAperture_rad(ring), 0.25F);
+  EXPECT_EQ(coneAperture(ring), 0.25F);
   ASSERT_EQ(ring.sensedData.size(), 3u);
   const int numbers[] = {0, 2, 10};
   const float ranges[] = {1.5F, 0.2F, 4.004F};  // no echo is 1.001 times the maximum
