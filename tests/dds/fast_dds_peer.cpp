@@ -18,7 +18,8 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
-/// Options of AddressSanitizer: Fast DDS 2.9 deletes its listeners of statistics by a type of another size.
+// Options of AddressSanitizer: Fast DDS 2.9 deletes its listeners of statistics by a type of another size.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming): its own name
 extern "C" const char* __asan_default_options() { return "new_delete_type_mismatch=0"; }
 
 namespace fast {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -51,7 +52,7 @@ class SampleBag {
 
 inline ros::Header headerAt(double time_s, const std::string& frame) {
   const auto whole = static_cast<std::int32_t>(time_s);
-  return {{whole, static_cast<std::uint32_t>((time_s - whole) * 1e9 + 0.5)}, frame};
+  return {{whole, static_cast<std::uint32_t>(std::lround((time_s - whole) * 1e9))}, frame};
 }
 
 /// A transform without rotation.
