@@ -32,8 +32,8 @@ cmake_policy(VERSION 3.25)
 set(long_suites AriaExamples BenchSpeed Camera ChosenControllers ConsoleSessionProperty Control Faults Fit InputFiles LostRobot Rawlogs Replay Sdk
     Video View ViewWindow OfEveryController/Standstill InputFiles/WaitingForAPipe Worlds/Golden)
 
-# No other test runs beside these, on two processors: the simulated serial line is read in real time.
-set(suites_sensitive_to_delays ArcosSerialLine)
+# No other test runs beside these, on two processors: programs drive robots through ARCOS in real time, or faster.
+set(suites_sensitive_to_delays ArcosSerialLine AriaExamples)
 
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE tests COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "(^|\n)[^ \n]+\\." suites "${tests}")  # tests are indented

@@ -30,6 +30,10 @@ REPLACED = re.compile(r"libgdal\.so\.")
 # Windows, and devices and MPI, which are loaded on demand; RoboSim reports what is missing.
 LEFT_OUT = ("libexec/robosim/robosim-view", "lib/librobosim-viewing.so*", "lib/librobosim-devices.so*", "lib/librobosim-mpi.so*",
             "lib/librobosim-dds.so*")
+LOADED_BY_PYTHON = f"librobosim-program.so.{'.'.join(VERSION.split('.')[:2])}"
+# Packages of files that are copied or embedded besides libraries: the font, and three.js in the page of a run.
+EMBEDDED = ["fonts-dejavu-core", "libjs-three"]
+
 FONTS_CONF = """<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "urn:fontconfig:fonts.dtd">
 <fontconfig>
@@ -60,6 +64,15 @@ def system_libraries():
     for name, path in re.findall(r"^\s+(\S+) \(libc6,x86-64[^)]*\) => (\S+)$", run("/sbin/ldconfig", "-p"), re.MULTILINE):
         paths.setdefault(name, pathlib.Path(path))
     return paths
+
+
+def copy_needed(files, source, target):
+    """Copies those files that are libraries of the folder source, and all libraries of it that they need, to target."""
+    pending = list(files)
+    for file in pending:
+        if file.parent == source:
+            shutil.copy2(file, target / file.name)
+        pending += [source / name for name in needed_by(file) if (source / name).exists() and source / name not in pending]
 
 
 class Elf:
@@ -314,17 +327,13 @@ def main(build, output):
     for file in elf_files(root / "bin") + elf_files(root / "libexec"):
         pass_on_rpath(file)
     pass_on_rpath(extension, "$ORIGIN/../robosim.libs")
-    pending = [extension]
-    while pending:
-        for needed in needed_by(pending.pop()):
-            if (root / "lib" / needed).exists() and not (libs / needed).exists():
-                shutil.copy2(root / "lib" / needed, libs / needed)
-                pending.append(libs / needed)
+    # The extension does not need the second one, but loads it for maps, recordings and pictures (apps/python/file_functions.h).
+    copy_needed([extension, root / "lib" / LOADED_BY_PYTHON], root / "lib", libs)
 
     add_fonts(root / "share/robosim")
     shutil.copytree(root / "share/robosim", libs / "share/robosim")
     for files, folder in ((root / "lib", root / "share/doc/robosim/licences"), (libs, libs / "licences")):
-        add_licences(libraries.packages(list(files.iterdir())) + ["fonts-dejavu-core"], folder)
+        add_licences(libraries.packages(list(files.iterdir())) + EMBEDDED, folder)
     shutil.copyfile(SOURCE / "apps/packaging/portable.txt", root / "README.txt")
 
     abi = f"cp{sys.version_info.major}{sys.version_info.minor}"

@@ -23,7 +23,7 @@ inline std::vector<pybind11::ssize_t> shapeOf(const pybind11::array& array) {
 inline void requireShape(const char* what, const pybind11::array& array, const std::vector<pybind11::ssize_t>& shape) {
   if (shapeOf(array) == shape) return;
   throw std::invalid_argument(std::string(what) + " have the shape " + shapeText(shapeOf(array)) + "; it must be " +
-                              shapeText(shape));
+                              shapeText(shape) + ", as of np.zeros(" + shapeText(shape) + ")");
 }
 
 /// An argument as a contiguous array of T, converted if necessary: numbers of other types, lists.
@@ -35,12 +35,14 @@ pybind11::array_t<T> numbersOf(const char* what, const pybind11::object& argumen
   const py::array given = py::array::ensure(argument);
   if (!given) {
     PyErr_Clear();
-    throw py::type_error(std::string(what) + " must be an array of numbers");
+    throw py::type_error(std::string(what) + " must be an array of numbers of shape " + shapeText(shape) +
+                         "; for example np.zeros(" + shapeText(shape) + ")");
   }
   const char kind = given.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u') {
     throw py::type_error(std::string(what) + " must be an array of numbers, not of " +
-                         py::str(given.dtype()).cast<std::string>());
+                         py::str(given.dtype()).cast<std::string>() + "; for example np.zeros(" + shapeText(shape) +
+                         ")");
   }
   requireShape(what, given, shape);
   const auto converted = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(given);
@@ -68,7 +70,7 @@ T* resultsOf(const char* what, pybind11::array& array, const std::vector<pybind1
 /// @throws std::invalid_argument
 inline void requireFinite(const char* what, double value) {
   if (std::isfinite(value)) return;
-  throw std::invalid_argument(std::string(what) + " is not finite");
+  throw std::invalid_argument(std::string(what) + " is not finite; it must be a number, for example 0.5");
 }
 
 }  // namespace robosim

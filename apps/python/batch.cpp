@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -36,6 +39,7 @@ class PythonBatch {
   const EnvironmentBatch& batch() const { return batch_; }
   py::ssize_t environments() const { return static_cast<py::ssize_t>(batch_.options().environments); }
   py::ssize_t agents() const { return static_cast<py::ssize_t>(batch_.agentCount()); }
+  py::ssize_t actionSize() const { return static_cast<py::ssize_t>(batch_.actionSize()); }
   py::ssize_t size() const { return static_cast<py::ssize_t>(batch_.observationSize()); }
 
   /// Calls use(batch) without Python's lock.
@@ -70,6 +74,11 @@ RewardWeights readWeights(const py::dict& given) {
         std::find_if(std::begin(known), std::end(known), [&](const auto& of) { return name == of.first; });
     if (found == std::end(known)) {
       throw py::type_error("there is no reward '" + name + "'; rewards are win, forward, heat, stall, step");
+    }
+    if (!py::isinstance<py::float_>(value) && !PyIndex_Check(value.ptr())) {
+      throw py::type_error("the weight of the reward '" + name + "' must be a number, not " +
+                           py::str(py::type::handle_of(value).attr("__name__")).cast<std::string>() +
+                           "; for example {\"" + name + "\": 0.5}");
     }
     *found->second = value.cast<double>();
     requireFinite("the weight of a reward", *found->second);
@@ -117,6 +126,86 @@ py::array_t<double> episodePosesOf(const PythonBatch& of, std::size_t environmen
   return all;
 }
 
+/// Poses of all robots of all environments: float64, shape (num_envs, robots, 3).
+/// @throws std::invalid_argument for environments with different numbers of robots
+py::array_t<double> allPosesOf(const PythonBatch& of) {
+  const auto robots = static_cast<py::ssize_t>(of.batch().environment(0).robotCount());
+  py::array_t<double> all(std::vector<py::ssize_t>{of.environments(), robots, 3});
+  double* out = all.mutable_data();
+  for (py::ssize_t i = 0; i < of.environments(); ++i) {
+    const auto& poses = of.batch().environment(static_cast<std::size_t>(i)).state().world_from_robot;
+    if (static_cast<py::ssize_t>(poses.size()) != robots) {
+      throw std::invalid_argument("the environments have different numbers of robots");
+    }
+    for (const auto& pose : poses) {
+      for (const double value : {pose.x, pose.y, pose.phi}) *out++ = value;
+    }
+  }
+  return all;
+}
+
+/// Positions of the movable objects of all environments: float64, shape (num_envs, objects, 2).
+/// @throws std::invalid_argument for environments with different numbers of them
+py::array_t<double> movablePositionsOf(const PythonBatch& of) {
+  std::vector<double> positions;
+  for (py::ssize_t i = 0; i < of.environments(); ++i) {
+    const std::size_t before = positions.size();
+    for (const WorldObject& object : of.batch().environment(static_cast<std::size_t>(i)).objects()) {
+      if (!object.movable) continue;
+      positions.push_back(object.body.world_from_body.x);
+      positions.push_back(object.body.world_from_body.y);
+    }
+    if (i > 0 && (positions.size() - before) * static_cast<std::size_t>(i) != before) {
+      throw std::invalid_argument("the environments have different numbers of movable objects");
+    }
+  }
+  py::array_t<double> all(std::vector<py::ssize_t>{
+      of.environments(), static_cast<py::ssize_t>(positions.size()) / 2 / of.environments(), 2});
+  std::copy(positions.begin(), positions.end(), all.mutable_data());
+  return all;
+}
+
+/// All environments as tuples of Python, for restore(). @param with_others whether copyOthers() follows
+/// @throws std::invalid_argument when controllers take part in an episode, unless with_others
+py::list saveBatch(const PythonBatch& of, bool with_others) {
+  py::list all;
+  for (std::size_t i = 0; i < of.batch().options().environments; ++i) {
+    if (!with_others && of.batch().hasOthers(i)) {
+      throw std::invalid_argument(
+          "environment " + std::to_string(i) +
+          " cannot be pickled within an episode: controllers drive its other robots, and their memory has no form as "
+          "bytes; pickle it before the first reset(), use others=\"still\", or copy.deepcopy()");
+    }
+    const SavedEpisode saved = of.batch().save(i);
+    py::list changes;
+    for (const Change& change : saved.changes) changes.append(toPython(changeText(change)));
+    all.append(
+        py::make_tuple(saved.seed, saved.number, saved.world_seed, changes, saved.is_over, py::bytes(saved.state)));
+  }
+  return all;
+}
+
+/// @param from the batch of which the environments are, whose other robots are copied; null: they have none
+void restoreBatch(PythonBatch& of, const py::list& saved, const PythonBatch* from) {
+  if (static_cast<py::ssize_t>(saved.size()) != of.environments()) {
+    throw std::invalid_argument("the saved state is of " + std::to_string(saved.size()) + " environments, not of " +
+                                std::to_string(of.environments()));
+  }
+  for (std::size_t i = 0; i < saved.size(); ++i) {
+    const auto one = saved[i].cast<py::tuple>();
+    SavedEpisode episode{.seed = one[0].cast<std::uint64_t>(),
+                         .number = one[1].cast<std::uint64_t>(),
+                         .world_seed = one[2].cast<std::uint64_t>(),
+                         .changes = {},
+                         .is_over = one[4].cast<bool>(),
+                         .state = one[5].cast<std::string>()};
+    for (const auto& change : one[3]) {
+      episode.changes.push_back(parseChange(toBytes(py::reinterpret_borrow<py::str>(change)), "saved environment"));
+    }
+    of.exclusively([&](EnvironmentBatch& batch) { batch.restore(i, episode, from ? &from->batch() : nullptr); });
+  }
+}
+
 /// Name of the winner of each environment: object, shape (num_envs,); None without one.
 py::array winnersOf(const PythonBatch& of) {
   py::list winners;
@@ -144,7 +233,7 @@ py::array_t<float> boundsOf(const PythonBatch& of, std::vector<float> Observatio
   py::array_t<float> bounds(std::vector<py::ssize_t>{of.agents(), of.size()});
   std::fill_n(bounds.mutable_data(), bounds.size(), 0.f);
   for (py::ssize_t agent = 0; agent < of.agents(); ++agent) {
-    float* out = bounds.mutable_data(agent, 0);
+    float* out = bounds.mutable_data() + agent * of.size();  // also of observations without numbers
     for (const auto& part : of.batch().layout(static_cast<std::size_t>(agent)).parts()) {
       out = std::copy((part.*bound).begin(), (part.*bound).end(), out);
     }
@@ -198,7 +287,7 @@ void reset(PythonBatch& of, py::array observations, const py::object& mask) {
 
 void step(PythonBatch& of, const py::object& actions, py::array observations, py::array rewards, py::array terminated,
           py::array truncated) {
-  const auto given = numbersOf<float>("actions", actions, {of.environments(), of.agents(), 2});
+  const auto given = numbersOf<float>("actions", actions, {of.environments(), of.agents(), of.actionSize()});
   const auto environments = static_cast<std::size_t>(of.environments());
   const auto flags = [&](const char* what, py::array& array) {
     return std::span(reinterpret_cast<std::uint8_t*>(resultsOf<bool>(what, array, {of.environments()})), environments);
@@ -210,6 +299,37 @@ void step(PythonBatch& of, const py::object& actions, py::array observations, py
                              flags("truncations", truncated)};
   const std::span<const float> of_agents(given.data(), static_cast<std::size_t>(given.size()));
   of.exclusively([&](EnvironmentBatch& batch) { batch.step(of_agents, results); });
+}
+
+/// Name, height, width, layers and range of the depths of each picture among the observations.
+py::list picturesOf(const PythonBatch& of) {
+  py::list all;
+  for (const ObservedPicture& picture : of.batch().pictures()) {
+    const auto& [has_rgb, has_depth, has_identity] = picture.camera.layers;
+    py::list layers;
+    for (const auto& [is_there, layer] :
+         {std::pair(has_rgb, "rgb"), {has_depth, "depth"}, {has_identity, "identity"}}) {
+      if (is_there) layers.append(layer);
+    }
+    all.append(py::make_tuple(toPython(picture.name), picture.camera.height_px, picture.camera.width_px, layers,
+                              picture.range_max_m));
+  }
+  return all;
+}
+
+/// @param rgb, depth, identity arrays for the layers that the picture has; None for others
+void writePictures(PythonBatch& of, std::size_t index, std::optional<py::array> rgb, std::optional<py::array> depth,
+                   std::optional<py::array> identity) {
+  const ObservedPicture& picture = of.batch().pictures()[index];
+  std::vector<py::ssize_t> shape{of.environments(), of.agents(), py::ssize_t{picture.camera.height_px},
+                                 py::ssize_t{picture.camera.width_px}};
+  BatchPictures out;
+  const auto size = [](const py::array& array) { return static_cast<std::size_t>(array.size()); };
+  if (depth) out.depth_m = {resultsOf<float>("depths", *depth, shape), size(*depth)};
+  if (identity) out.identity = {resultsOf<std::uint32_t>("identities", *identity, shape), size(*identity)};
+  shape.push_back(3);
+  if (rgb) out.rgb = {resultsOf<std::uint8_t>("colours", *rgb, shape), size(*rgb)};
+  of.exclusively([&](EnvironmentBatch& batch) { batch.writePictures(index, out); });
 }
 
 }  // namespace
@@ -244,6 +364,7 @@ void bindBatch(py::module_& module) {
            py::arg("reward"), py::arg("period_s"), py::arg("max_steps"), py::arg("random_starts"),
            py::arg("start_distance_m"), py::arg("threads"), py::arg("seed"), py::arg("controllers"))
       .def_property_readonly("agents", &PythonBatch::agents)
+      .def_property_readonly("action_size", &PythonBatch::actionSize)
       .def_property_readonly("size", &PythonBatch::size)
       .def_property_readonly("agent_names", agentNames)
       .def_property_readonly("parts", partsOf)
@@ -252,6 +373,19 @@ void bindBatch(py::module_& module) {
       .def_property_readonly("world_seeds", worldSeedsOf)
       .def_property_readonly("steps", stepsOf)
       .def("poses", episodePosesOf)
+      .def_property_readonly("all_poses", allPosesOf)
+      .def_property_readonly("movable_positions", movablePositionsOf)
+      .def("save", saveBatch, py::arg("with_others") = false)
+      .def("restore", restoreBatch, py::arg("saved"),
+           py::arg("others_of").none(true) = static_cast<const PythonBatch*>(nullptr))
+      .def("end_episodes",
+           [](PythonBatch& of, const py::array_t<bool>& which) {
+             requireShape("the elements of which", which, {of.environments()});
+             for (py::ssize_t i = 0; i < of.environments(); ++i) {
+               if (!which.at(i)) continue;
+               of.exclusively([&](EnvironmentBatch& batch) { batch.endEpisode(static_cast<std::size_t>(i)); });
+             }
+           })
       .def_property_readonly("winners", winnersOf)
       .def_property_readonly("gold_found", goldFoundIn)
       .def_property_readonly("period_s", [](const PythonBatch& of) { return of.batch().options().period_s; })
@@ -266,7 +400,10 @@ void bindBatch(py::module_& module) {
              of.exclusively([&](EnvironmentBatch& batch) { batch.setChanges(environment, std::move(changes)); });
            })
       .def("reset", reset, py::arg("observations"), py::arg("mask") = py::none())
-      .def("step", step);
+      .def("step", step)
+      .def_property_readonly("pictures", picturesOf)
+      .def("write_pictures", writePictures, py::arg("index"), py::arg("rgb").none(true), py::arg("depth").none(true),
+           py::arg("identity").none(true));
 }
 
 }  // namespace robosim

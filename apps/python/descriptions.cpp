@@ -50,6 +50,38 @@ void bindSensorInfo(py::module_& module) {
       .def_property_readonly(
           "phase_s", [](const SensorInfo& sensor) { return sensor.times.phase_s; },
           "Time of a measurement of a sensor with rate_hz [s], modulo the period.")
+      .def_property_readonly(
+          "image_shape",
+          [](const SensorInfo& sensor) -> py::object {
+            if (sensor.camera.width_px == 0) return py::none();
+            return py::make_tuple(sensor.camera.height_px, sensor.camera.width_px, 3);
+          },
+          "Of a camera or blob finder: shape of a picture (height, width, 3); None of other sensors.")
+      .def_property_readonly(
+          "field_of_view_rad", [](const SensorInfo& sensor) { return sensor.camera.field_of_view_rad; },
+          "Of a camera or blob finder: horizontal field of view [rad]; 0 of other sensors.")
+      .def_property_readonly(
+          "image_rate_hz", [](const SensorInfo& sensor) { return sensor.camera.rate_hz; },
+          "Of a camera or blob finder: pictures per second of simulated time; 0 of other sensors.")
+      .def_property_readonly(
+          "image_layers",
+          [](const SensorInfo& sensor) {
+            const auto& [has_rgb, has_depth, has_identity] = sensor.camera.layers;
+            py::list layers;
+            if (has_rgb) layers.append("rgb");
+            if (has_depth) layers.append("depth");
+            if (has_identity) layers.append("identity");
+            return py::tuple(layers);
+          },
+          "Of a ray-cast camera: what its pictures contain, some of 'rgb', 'depth', 'identity'; () of other sensors.")
+      .def_property_readonly(
+          "value_names",
+          [](const SensorInfo& sensor) {
+            py::list names;
+            for (const Quantity& quantity : sensor.quantities) names.append(toPython(quantity.name));
+            return py::tuple(names);
+          },
+          "Of a sensor of kind 'values': name of each number; else ().")
       .def("__repr__", [](const SensorInfo& sensor) {
         return "<SensorInfo '" + sensor.label + "', " + std::to_string(sensor.beams.size()) + " beams>";
       });
@@ -72,6 +104,9 @@ void bindRobotInfo(py::module_& module) {
       .def_property_readonly("height_m", [](const FleetRobot& robot) { return robot.info.height_m; })
       .def_property_readonly("speed_max_mps", [](const FleetRobot& robot) { return robot.info.limits.speed_max_mps; })
       .def_property_readonly("turn_max_radps", [](const FleetRobot& robot) { return robot.info.limits.turn_max_radps; })
+      .def_property_readonly("lateral_max_mps",
+                             [](const FleetRobot& robot) { return robot.info.limits.lateral_max_mps; })
+      .def_property_readonly("drive_type", [](const FleetRobot& robot) { return nameOf(robot.info.drive.kind); })
       .def_property_readonly(
           "sensors", [](const FleetRobot& robot) { return py::tuple(py::cast(*robot.info.sensors)); },
           "Its sensors, as SensorInfo.")
@@ -109,6 +144,12 @@ void bindObject(py::module_& module) {
       .def_property_readonly(
           "heat_celsius", [](const WorldObject& object) { return object.body.heat_celsius; },
           "Its temperature; 0 gives off no heat.")
+      .def_property_readonly(
+          "light_cd", [](const WorldObject& object) { return object.body.light_cd; },
+          "Its luminous intensity in all directions [cd]; 0: no light.")
+      .def_property_readonly(
+          "fiducial", [](const WorldObject& object) { return static_cast<int>(object.body.fiducial); },
+          "Number of its fiducial mark; 0: it has none.")
       .def_property_readonly(
           "mass_kg",
           [](const WorldObject& object) {

@@ -1,6 +1,8 @@
 #include "generated_world.h"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -26,7 +28,9 @@ struct Option {
 void set(const Option& option, const py::handle& value) {
   const bool is_whole = std::holds_alternative<int*>(option.number);
   if (!py::isinstance<py::int_>(value) && (is_whole || !py::isinstance<py::float_>(value))) {
-    throw py::type_error(std::string(option.name) + " must be " + (is_whole ? "a whole number" : "a number"));
+    throw py::type_error(std::string(option.name) + " must be " + (is_whole ? "a whole number" : "a number") +
+                         ", not " + py::str(py::type::handle_of(value).attr("__name__")).cast<std::string>() +
+                         "; for example " + option.name + "=" + (is_whole ? "6" : "1.5"));
   }
   const double number = value.cast<double>();
   if (is_whole && std::abs(number) > 1e9) throw py::value_error(std::string(option.name) + " is too large");
@@ -79,14 +83,26 @@ WorldGenerator::MakeScenery sceneryMaker(const std::string& kind, const py::dict
   throw ConfigError("there is no generator '" + kind + "'; use maze, cave, office or open");
 }
 
+/// @throws std::invalid_argument
 TeamOptions toTeamOptions(int robots, std::vector<std::string> types, std::string controller, bool gold) {
+  if (robots < 0 || robots > 1'000'000) {
+    throw std::invalid_argument("robots is " + std::to_string(robots) + "; it must be 0 to 1000000, for example 2");
+  }
   return {robots, std::move(types), std::move(controller), gold};
 }
 
 }  // namespace
 
 PythonGenerator::PythonGenerator(std::string kind, TeamOptions team, const py::dict& options)
-    : kind_(std::move(kind)), team_(std::move(team)), make_(sceneryMaker(kind_, options)) {}
+    : kind_(std::move(kind)),
+      team_(std::move(team)),
+      options_(options.attr("copy")()),
+      make_(sceneryMaker(kind_, options)) {}
+
+py::tuple PythonGenerator::arguments() const {
+  return py::make_tuple(toPython(kind_), team_.robots, team_.models, toPython(team_.controller), team_.has_gold,
+                        options_);
+}
 
 std::shared_ptr<PythonWorld> PythonGenerator::generate(std::uint64_t seed) const {
   return PythonWorld::parse(toXml(populated(make_(seed), team_, seed)), kind_ + ".xml", seed);
@@ -99,8 +115,8 @@ void bindGenerator(py::module_& module) {
       module, "WorldGenerator",
       "Random worlds that differ in their seed only. A VectorEnv or ParallelEnv takes a new one for each episode.\n\n"
       "The arguments are those of World.generate().")
-      .def(py::init([](std::string kind, WholeNumber<"robots", int> robots, std::vector<std::string> types,
-                       std::string controller, bool gold, const py::kwargs& options) {
+      .def(py::init([](std::string kind, WholeNumber<"robots", int, "0 to 1000000"> robots,
+                       std::vector<std::string> types, std::string controller, bool gold, const py::kwargs& options) {
              auto made = std::make_shared<PythonGenerator>(
                  std::move(kind), toTeamOptions(robots, std::move(types), std::move(controller), gold), options);
              made->forEpisodes();  // reports faults
@@ -115,11 +131,21 @@ void bindGenerator(py::module_& module) {
             return of.generate(seed);
           },
           py::arg("seed"), "The World of a seed: the same as World.generate(…, seed=seed).")
+      .def(py::pickle([](const PythonGenerator& of) { return of.arguments(); },
+                      [](const py::tuple& of) {
+                        TeamOptions team = toTeamOptions(of[1].cast<int>(), of[2].cast<std::vector<std::string>>(),
+                                                         toBytes(of[3].cast<py::str>()), of[4].cast<bool>());
+                        return std::make_shared<PythonGenerator>(toBytes(of[0].cast<py::str>()), std::move(team),
+                                                                 of[5].cast<py::dict>());
+                      }))
+      .def("__copy__", [](const std::shared_ptr<PythonGenerator>& of) { return of; })
+      .def("__deepcopy__", [](const std::shared_ptr<PythonGenerator>& of, const py::dict&) { return of; })
       .def_property_readonly("kind", [](const PythonGenerator& of) { return toPython(of.kind()); })
       .def("__repr__", [](const PythonGenerator& of) { return toPython("<WorldGenerator '" + of.kind() + "'>"); });
 }
 
-std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, Seed seed, WholeNumber<"robots", int> robots,
+std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, Seed seed,
+                                            WholeNumber<"robots", int, "0 to 1000000"> robots,
                                             std::vector<std::string> types, std::string controller, bool gold,
                                             const py::kwargs& options) {
   const PythonGenerator made(kind, toTeamOptions(robots, std::move(types), std::move(controller), gold), options);

@@ -24,6 +24,8 @@ class PythonGenerator {
   PythonGenerator(std::string kind, TeamOptions team, const pybind11::dict& options);
 
   const std::string& kind() const { return kind_; }
+  /// The arguments of the constructor: kind, robots, types, controller, gold, options.
+  pybind11::tuple arguments() const;
   /// @throws ConfigError for values out of bounds and an unknown robot type
   std::shared_ptr<PythonWorld> generate(std::uint64_t seed) const;
   /// Makes the same worlds for a batch, without parsing. @throws ConfigError as generate()
@@ -32,12 +34,14 @@ class PythonGenerator {
  private:
   std::string kind_;
   TeamOptions team_;
+  pybind11::dict options_;
   WorldGenerator::MakeScenery make_;
 };
 
 /// Python's World.generate().
 /// @throws as PythonGenerator
-std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, Seed seed, WholeNumber<"robots", int> robots,
+std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, Seed seed,
+                                            WholeNumber<"robots", int, "0 to 1000000"> robots,
                                             std::vector<std::string> types, std::string controller, bool gold,
                                             const pybind11::kwargs& options);
 

@@ -27,11 +27,13 @@ void intervene(Simulation& simulation, Change change) {
 
 void add(Simulation& simulation, const py::str& name, const decltype(Body::shape)& shape,
          const mrpt::math::TPose2D& pose, double height_m, std::optional<double> z_m, const Color& color,
-         double heat_celsius, double reflectivity, const std::optional<Movable>& movable) {
+         double heat_celsius, double reflectivity, const std::optional<Movable>& movable, double light_cd,
+         double fiducial) {
   AddObject added;
   added.object.movable = movable;
   added.object.name = toBytes(name);
-  added.object.body = {shape, pose, z_m.value_or(height_m / 2), height_m, color, heat_celsius, reflectivity};
+  added.object.body = {shape,    pose,    z_m.value_or(height_m / 2), height_m, color, heat_celsius, reflectivity,
+                       light_cd, fiducial};
   intervene(simulation, added);
 }
 
@@ -64,31 +66,37 @@ void bindInterventions(py::class_<Simulation, std::shared_ptr<Simulation>>& simu
           "add_cylinder",
           [](Simulation& of, const py::str& name, double x, double y, double radius_m, double height_m,
              std::optional<double> z_m, const Color& color, double heat_celsius, double reflectivity,
-             std::optional<double> mass_kg, std::optional<double> friction, std::optional<double> restitution) {
+             std::optional<double> mass_kg, std::optional<double> friction, std::optional<double> restitution,
+             double light_cd, double fiducial) {
             add(of, name, Cylinder{radius_m}, {x, y, 0}, height_m, z_m, color, heat_celsius, reflectivity,
-                movableOf(mass_kg, friction, restitution));
+                movableOf(mass_kg, friction, restitution), light_cd, fiducial);
           },
           py::arg("name"), py::arg("x"), py::arg("y"), py::arg("radius_m"), py::arg("height_m") = 1.0,
           py::arg("z_m") = py::none(), py::arg("color") = grey, py::arg("heat_celsius") = 0.0,
           py::arg("reflectivity") = kReflectivity, py::kw_only(), py::arg("mass_kg") = py::none(),
-          py::arg("friction") = py::none(), py::arg("restitution") = py::none(),
+          py::arg("friction") = py::none(), py::arg("restitution") = py::none(), py::arg("light_cd") = 0.0,
+          py::arg("fiducial") = 0.0,
           "Adds an upright cylinder at x, y [m]. z_m: height of its centre; None: it stands on the ground.\n\nWith "
           "mass_kg, robots push it: friction is its coefficient on the floor (of rolling for a ball; None: 0.5), "
-          "restitution the share of the speed with which it leaves a collision, [0, 1] (None: 0). Raises ValueError if "
+          "restitution the share of the speed with which it leaves a collision, [0, 1] (None: 0). light_cd: its "
+          "luminous "
+          "intensity; fiducial: number of its mark. Below the floor it is a painted area. Raises ValueError if "
           "it would overlap something, or the "
           "name is taken.")
       .def(
           "add_box",
           [](Simulation& of, const py::str& name, double x, double y, double length_m, double width_m, double height_m,
              double heading, std::optional<double> z_m, const Color& color, double heat_celsius, double reflectivity,
-             std::optional<double> mass_kg, std::optional<double> friction, std::optional<double> restitution) {
+             std::optional<double> mass_kg, std::optional<double> friction, std::optional<double> restitution,
+             double light_cd, double fiducial) {
             add(of, name, Cube{length_m, width_m}, {x, y, heading}, height_m, z_m, color, heat_celsius, reflectivity,
-                movableOf(mass_kg, friction, restitution));
+                movableOf(mass_kg, friction, restitution), light_cd, fiducial);
           },
           py::arg("name"), py::arg("x"), py::arg("y"), py::arg("length_m"), py::arg("width_m"),
           py::arg("height_m") = 1.0, py::arg("heading") = 0.0, py::arg("z_m") = py::none(), py::arg("color") = grey,
           py::arg("heat_celsius") = 0.0, py::arg("reflectivity") = kReflectivity, py::kw_only(),
           py::arg("mass_kg") = py::none(), py::arg("friction") = py::none(), py::arg("restitution") = py::none(),
+          py::arg("light_cd") = 0.0, py::arg("fiducial") = 0.0,
           "Adds an upright box at x, y [m], whose length is along heading [rad]; otherwise as add_cylinder().")
       .def(
           "add_robot",
@@ -108,11 +116,14 @@ void bindInterventions(py::class_<Simulation, std::shared_ptr<Simulation>>& simu
       .def(
           "change",
           [](Simulation& of, const py::str& name, std::optional<double> heat_celsius, std::optional<Color> color,
-             std::optional<double> height_m, std::optional<double> reflectivity) {
-            intervene(of, ChangeObject{toBytes(name), heat_celsius, color, height_m, reflectivity});
+             std::optional<double> height_m, std::optional<double> reflectivity, std::optional<double> light_cd,
+             std::optional<double> fiducial) {
+            intervene(of,
+                      ChangeObject{toBytes(name), heat_celsius, color, height_m, reflectivity, {light_cd, fiducial}});
           },
           py::arg("name"), py::kw_only(), py::arg("heat_celsius") = py::none(), py::arg("color") = py::none(),
-          py::arg("height_m") = py::none(), py::arg("reflectivity") = py::none(),
+          py::arg("height_m") = py::none(), py::arg("reflectivity") = py::none(), py::arg("light_cd") = py::none(),
+          py::arg("fiducial") = py::none(),
           "Changes the properties of an object that are given. Its underside stays where it is.")
       .def(
           "set_activity",

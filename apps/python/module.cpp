@@ -9,14 +9,14 @@
 #include "python_robot.h"
 #include "python_world.h"
 #include "recording.h"
-#include "run/outputs/standard_parts.h"
+#include "run/loaded_parts.h"
 #include "run/plugin.h"
 #include "simulation.h"
 
 PYBIND11_MODULE(_robosim, module) {
   namespace py = pybind11;
   module.attr("__version__") = ROBOSIM_VERSION;
-  robosim::useStandardParts();
+  robosim::useLoadedParts();
   robosim::registerErrors();
   module.def("load_plugin", &robosim::loadPlugin, py::arg("file"),
              "Loads a plugin with additional controllers and sensors (doc/sdk.md). Raises ConfigError.");
@@ -27,6 +27,7 @@ PYBIND11_MODULE(_robosim, module) {
   robosim::bindSimulation(module);
   robosim::bindBatch(module);
   robosim::bindRecording(module);
+  robosim::explainArguments(module);
   robosim::refuseUnconstructed(module);
   robosim::registerPythonEnd(module);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error_list.h"
+#include "control/controller.h"
 #include "control/controller_error.h"
 #include "control/robot.h"
 #include "environment/local_hardware.h"
@@ -47,6 +48,17 @@ class ControlledRobots : public OtherRobots {
     }
   }
 
+  bool isEmpty() const { return all_.empty(); }
+
+  std::unique_ptr<OtherRobots> clone(Environment& environment) const override {
+    auto copy = std::unique_ptr<ControlledRobots>(new ControlledRobots());
+    for (const auto& one : all_) {
+      copy->all_.push_back(std::make_unique<One>(environment, one->index, one->choice,
+                                                 cloneController(*one->controller, one->choice, one->robot.name())));
+    }
+    return copy;
+  }
+
   void act() override {
     for (const auto& one : all_) {
       try {
@@ -58,13 +70,16 @@ class ControlledRobots : public OtherRobots {
   }
 
  private:
+  ControlledRobots() = default;
+
   struct One {
+    std::size_t index;
     LocalHardware hardware;
     Robot robot;
     std::string choice;
     std::unique_ptr<Controller> controller;
     One(Environment& environment, std::size_t i, std::string chosen, std::unique_ptr<Controller> made)
-        : hardware(environment, i), robot(hardware), choice(std::move(chosen)), controller(std::move(made)) {}
+        : index(i), hardware(environment, i), robot(hardware), choice(std::move(chosen)), controller(std::move(made)) {}
   };
   std::vector<std::unique_ptr<One>> all_;  // on the heap: each Robot refers to its LocalHardware
 };
@@ -78,7 +93,9 @@ void checkOtherRobots(const LoadedWorld& world, std::size_t first) {
 }
 
 std::unique_ptr<OtherRobots> otherRobots(Environment& environment, std::size_t first) {
-  return std::make_unique<ControlledRobots>(environment, first);
+  auto robots = std::make_unique<ControlledRobots>(environment, first);
+  if (robots->isEmpty()) return nullptr;
+  return robots;
 }
 
 }  // namespace robosim

@@ -5,6 +5,7 @@
 #include <mrpt/math/TPose2D.h>
 #include <pybind11/numpy.h>
 
+#include "hardware/measurement.h"
 #include "robots/fleet.h"
 
 namespace robosim {
@@ -13,7 +14,11 @@ namespace robosim {
 pybind11::array planOf(const World& world, const Fleet& fleet, std::span<const mrpt::math::TPose2D> world_from_robot);
 /// The same as an SVG document.
 std::string svgOf(const World& world, const Fleet& fleet, std::span<const mrpt::math::TPose2D> world_from_robot);
-/// A JPEG file's picture in that form. @throws std::invalid_argument when it cannot be decoded
-pybind11::array pictureOf(const std::string& jpeg);
+/// A camera's picture in that form; None without one. @throws std::invalid_argument when it cannot be decoded
+pybind11::object pictureOf(const Image& image);
+/// The depths of a ray-cast picture: float32, shape (height, width); None without them.
+pybind11::object depthsOf(const Image& image);
+/// The identities of the bodies in one: uint32, shape (height, width); None without them.
+pybind11::object identitiesOf(const Image& image);
 
 }  // namespace robosim

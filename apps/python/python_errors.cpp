@@ -56,6 +56,59 @@ void refuseUnconstructed(py::module_& module) {
   }
 }
 
+namespace {
+
+PyCFunctionWithKeywords pybind11_call = nullptr;  ///< what pybind11 calls for every function
+
+/// The same, but its error for arguments of the wrong types names the argument (robosim/_arguments.py).
+PyObject* callExplained(PyObject* self, PyObject* arguments, PyObject* keywords) {
+  PyObject* const result = pybind11_call(self, arguments, keywords);
+  if (result || !PyErr_ExceptionMatches(PyExc_TypeError)) return result;
+  const py::error_scope error;  // restored at the end, unless the explanation replaces it
+  try {
+    py::object given = py::reinterpret_borrow<py::object>(error.value);
+    const auto named = keywords ? py::reinterpret_borrow<py::dict>(keywords) : py::dict();
+    const py::object text = py::module_::import("robosim._arguments")
+                                .attr("explain")(py::str(given), py::reinterpret_borrow<py::object>(arguments), named);
+    if (!text.is_none()) {
+      auto& replaced = const_cast<py::error_scope&>(error);
+      Py_SETREF(replaced.value, py::object(text).release().ptr());
+      Py_CLEAR(replaced.trace);
+    }
+  } catch (const py::error_already_set&) {  // the error of pybind11 remains
+  }
+  return nullptr;
+}
+
+/// Replaces pybind11's call of a function, method, or accessor of a property.
+void explain(py::handle member) {
+  if (!member || member.is_none()) return;
+  PyObject* function = member.ptr();
+  if (PyInstanceMethod_Check(function)) function = PyInstanceMethod_Function(function);
+  if (Py_IS_TYPE(function, &PyStaticMethod_Type)) return explain(member.attr("__func__"));
+  if (Py_IS_TYPE(function, &PyProperty_Type)) return explain(member.attr("fset"));
+  if (!PyCFunction_Check(function)) return;
+  PyMethodDef& method = *reinterpret_cast<PyCFunctionObject*>(function)->m_ml;
+  if ((method.ml_flags & (METH_VARARGS | METH_KEYWORDS)) != (METH_VARARGS | METH_KEYWORDS)) return;
+  const auto call = reinterpret_cast<PyCFunctionWithKeywords>(reinterpret_cast<void (*)()>(method.ml_meth));
+  if (!pybind11_call) pybind11_call = call;
+  if (call != pybind11_call) return;
+  method.ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(callExplained));
+}
+
+}  // namespace
+
+void explainArguments(py::module_& module) {
+  for (const auto& [name, value] : module.attr("__dict__").cast<py::dict>()) {
+    if (!PyType_Check(value.ptr())) {
+      explain(value);
+      continue;
+    }
+    const auto members = py::dict(py::reinterpret_borrow<py::object>(value.attr("__dict__")));
+    for (const auto& [member_name, member] : members) explain(member);
+  }
+}
+
 void registerErrors() { py::register_exception_translator(translate); }
 
 }  // namespace robosim

@@ -16,6 +16,9 @@ std::string toBytes(const pybind11::str& text);
 
 /// Converts RoboSim's exceptions to those of robosim/_errors.py.
 void registerErrors();
+/// Makes the TypeErrors of all functions and classes of the module name the argument, what it must be, and an example.
+/// To be called when all are bound.
+void explainArguments(pybind11::module_& module);
 
 /// Makes every use of an object whose constructor has not been called (`Simulation.__new__(Simulation).poses`) raise
 /// TypeError. pybind11 would use memory that is not initialised. To be called when the module has its classes.

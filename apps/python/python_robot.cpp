@@ -33,6 +33,15 @@ const Measurement* measurementNamed(const Robot& robot, const std::string& name)
                               "', which is no kind of sensor either; its sensors are " + labelsOf(robot));
 }
 
+/// The picture of a camera, which may be empty; null for a robot without it.
+const Image* imageNamed(const Robot& robot, const std::string& sensor) {
+  const Measurement* measurement = measurementNamed(robot, sensor);
+  if (!measurement) return nullptr;
+  const auto* image = std::get_if<Image>(measurement);
+  if (!image) throw std::invalid_argument("a " + sensor + " takes no pictures; name a camera, such as 'camera'");
+  return image;
+}
+
 /// Ranges of the first sensor of a kind; None for a robot without it.
 py::object rangesOf(const PythonRobot& robot, SensorKind kind) {
   const Measurement* measurement = robot.toRead().measurement(kind);
@@ -75,10 +84,20 @@ py::object bumperOf(const PythonRobot& robot) {
   return pressed;
 }
 
-py::object imageOf(const PythonRobot& robot) {
-  const std::string& jpeg = robot.toRead().image().jpeg;
-  if (jpeg.empty()) return py::none();
-  return pictureOf(jpeg);
+py::object imageOf(const PythonRobot& robot) { return pictureOf(robot.toRead().image()); }
+
+py::object imageOfSensor(const PythonRobot& robot, const std::string& sensor) {
+  return robotImage(robot.toRead(), sensor);
+}
+
+py::object depthOf(const PythonRobot& robot, const std::string& sensor) {
+  const Image* image = imageNamed(robot.toRead(), sensor);
+  return image ? depthsOf(*image) : py::object(py::none());
+}
+
+py::object identityOf(const PythonRobot& robot, const std::string& sensor) {
+  const Image* image = imageNamed(robot.toRead(), sensor);
+  return image ? identitiesOf(*image) : py::object(py::none());
 }
 
 py::object valuesOf(const PythonRobot& robot) {
@@ -91,15 +110,40 @@ py::object valuesOf(const PythonRobot& robot) {
   return named;
 }
 
-void drive(const PythonRobot& robot, double speed_mps, double turn_radps) {
+void drive(const PythonRobot& robot, double speed_mps, double turn_radps, double lateral_mps) {
   requireFinite("the speed", speed_mps);
   requireFinite("the turn rate", turn_radps);
-  robot.toCommand().drive(speed_mps, turn_radps);
+  requireFinite("the lateral speed", lateral_mps);
+  robot.toCommand().drive(speed_mps, turn_radps, lateral_mps);
 }
 
 void panLaser(const PythonRobot& robot, double pan_rad) {
   requireFinite("the pan angle", pan_rad);
   robot.toCommand().panLaser(pan_rad);
+}
+
+void aimCamera(const PythonRobot& robot, double pan_rad, double tilt_rad) {
+  requireFinite("the pan angle", pan_rad);
+  requireFinite("the tilt angle", tilt_rad);
+  robot.toCommand().aimCamera(pan_rad, tilt_rad);
+}
+
+void zoomCamera(const PythonRobot& robot, double zoom) {
+  requireFinite("the zoom", zoom);
+  robot.toCommand().zoomCamera(zoom);
+}
+
+void limitCameraSpeed(const PythonRobot& robot, double pan_radps, double tilt_radps) {
+  requireFinite("the pan speed", pan_radps);
+  requireFinite("the tilt speed", tilt_radps);
+  robot.toCommand().limitCameraSpeed(pan_radps, tilt_radps);
+}
+
+py::object cameraAimOf(const PythonRobot& robot) {
+  const Robot& of = robot.toRead();
+  if (!of.cameraHead()) return py::none();
+  const CameraAim aim = of.cameraAim();
+  return py::make_tuple(aim.pan_rad, aim.tilt_rad, aim.zoom);
 }
 
 py::list nameList(const std::vector<std::string>& names) {
@@ -142,8 +186,21 @@ void bindReadings(RobotClass& robot) {
           "x, y [m] and heading [rad] since the start, speed [m/s], turn rate [rad/s].")
       .def_property_readonly(
           "image", imageOf,
-          "Camera picture: uint8, shape (height, width, 3): red, green, blue; None in a step without one.")
+          "Picture of the first camera: uint8, shape (height, width, 3): red, green, blue; None in a step without one.")
+      .def(
+          "depth_of", depthOf, py::arg("sensor") = "camera",
+          "Distances [m] along the optical axis in the picture of a ray-cast camera: float32, shape (height, width); 0 "
+          "where\nnothing is within the camera's range. None without depths, and in a step without a picture.")
+      .def("identity_of", identityOf, py::arg("sensor") = "camera",
+           "What each pixel of a ray-cast camera shows: uint32, shape (height, width): the index of an object, or the "
+           "number of\nobjects + the index of a robot; 2**32 - 1 for the sky, - 2 for the floor, - 3 for a map's wall.")
+      .def("image_of", imageOfSensor, py::arg("sensor"),
+           "Picture of the camera with this label: uint8, shape (height, width, 3): red, green, blue, the first row at "
+           "the top. None in a step without one.")
       .def_property_readonly("values", valuesOf, "Quantities of a sensor of a plugin by name; None without one.")
+      .def_property_readonly(
+          "lateral_mps", [](const PythonRobot& of) { return of.toRead().odometry().lateral_mps; },
+          "Speed to the left [m/s], by odometry; 0 of most drives.")
       .def_property_readonly(
           "stalled", [](const PythonRobot& of) { return of.toRead().stalled(); },
           "Whether an obstacle stopped the last motion.")
@@ -155,13 +212,21 @@ void bindReadings(RobotClass& robot) {
           "Name of the robot that has won; empty until then.")
       .def_property_readonly(
           "held", [](const PythonRobot& of) { return of.toRead().held(); },
-          "Whether the gripper holds an object; False for a robot without one.");
+          "Whether the gripper holds an object; False for a robot without one.")
+      .def_property_readonly("camera_aim", cameraAimOf,
+                             "Pan [rad], tilt [rad] and zoom of the camera in this step; None for a robot without one "
+                             "that pans, tilts and zooms.")
+      .def_property_readonly(
+          "leds", [](const PythonRobot& of) { return py::tuple(py::cast(of.toRead().leds())); },
+          "Colour of its LEDs: red, green and blue, each in [0, 1]; (0, 0, 0) is off.");
 }
 
 void bindCommands(RobotClass& robot) {
   robot
-      .def("drive", drive, py::arg("speed_mps"), py::arg("turn_radps"),
-           "Sets speed (ahead) and turn rate (counter-clockwise), which are kept until the next call.")
+      .def(
+          "drive", drive, py::arg("speed_mps"), py::arg("turn_radps"), py::arg("lateral_mps") = 0.0,
+          "Sets speed (ahead), turn rate (counter-clockwise) and lateral speed (to the left), which are kept until the "
+          "next call.\n\nOnly a robot with an omnidirectional drive has a lateral speed; ValueError for others.")
       .def(
           "stop", [](const PythonRobot& of) { of.toCommand().stop(); }, "The same as drive(0, 0).")
       .def("pan_laser", panLaser, py::arg("pan_rad"), "Turns the sensors that pan: [-π/2, π/2].")
@@ -171,6 +236,17 @@ void bindCommands(RobotClass& robot) {
       .def(
           "release", [](const PythonRobot& of) { of.toCommand().release(); },
           "Opens the gripper: what it held stays where it is.")
+      .def(
+          "set_leds", [](const PythonRobot& of, const std::array<float, 3>& color) { of.toCommand().setLeds(color); },
+          py::arg("color"), "Sets the colour of its LEDs: red, green and blue, each in [0, 1]; (0, 0, 0) is off.")
+      .def("aim_camera", aimCamera, py::arg("pan_rad"), py::arg("tilt_rad"),
+           "Turns a camera that pans and tilts, relative to its mount: to the left, and up.")
+      .def("zoom_camera", zoomCamera, py::arg("zoom"),
+           "Divides the field of view of a camera that zooms by this: at least 1.")
+      .def("limit_camera_speed", limitCameraSpeed, py::arg("pan_radps"), py::arg("tilt_radps"),
+           "Limits the speeds of aim_camera(); 0 or less: as fast as the camera can.")
+      .def(
+          "stop_camera", [](const PythonRobot& of) { of.toCommand().stopCamera(); }, "Aims the camera where it is now.")
       .def(
           "halt",
           [](const PythonRobot& of, bool found) { of.toCommand().halt(found ? Activity::found : Activity::halted); },
@@ -191,6 +267,11 @@ void bindCommands(RobotClass& robot) {
 }
 
 }  // namespace
+
+py::object robotImage(const Robot& robot, const std::string& sensor) {
+  const Image* image = imageNamed(robot, sensor);
+  return image ? pictureOf(*image) : py::object(py::none());
+}
 
 PythonRobot::PythonRobot(Simulation& simulation, std::size_t index)
     : simulation_(simulation.weak_from_this()), index_(index), may_command_(simulation.isDrivenFromPython(index)) {}
@@ -240,6 +321,12 @@ void bindRobot(py::module_& module) {
                              [](const PythonRobot& of) { return of.toRead().info().limits.speed_max_mps; })
       .def_property_readonly("turn_max_radps",
                              [](const PythonRobot& of) { return of.toRead().info().limits.turn_max_radps; })
+      .def_property_readonly(
+          "lateral_max_mps", [](const PythonRobot& of) { return of.toRead().info().limits.lateral_max_mps; },
+          "Of an omnidirectional drive; 0 for others.")
+      .def_property_readonly(
+          "drive_type", [](const PythonRobot& of) { return nameOf(of.toRead().info().drive.kind); },
+          "'differential', 'omni', 'car' or 'tracked'.")
       .def_property_readonly(
           "sensors", [](const PythonRobot& of) { return py::tuple(py::cast(*of.toRead().info().sensors)); },
           "Its sensors, as SensorInfo.")

@@ -30,6 +30,11 @@ class PythonRobot {
 
 void bindRobot(pybind11::module_& module);
 
+/// Picture of the first sensor of a kind or of the sensor with a label: uint8, shape (height, width, 3): red, green,
+/// blue; None in a step without one, and for a robot without a sensor of that kind.
+/// @throws std::invalid_argument for a name that is neither, and a sensor that takes no pictures
+pybind11::object robotImage(const Robot& robot, const std::string& sensor);
+
 /// Python's class Message of a message to a robot.
 pybind11::list inboxOf(const Readings& readings);
 

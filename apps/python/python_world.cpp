@@ -57,6 +57,31 @@ std::string described(const PythonWorld& world) {
          std::to_string(of.world.objects.size()) + " objects>";
 }
 
+/// The texts of all files that the world was made of, so that another process or machine makes the same world.
+py::tuple sourceTextsOf(const PythonWorld& world) {
+  const WorldSource& source = world.source;
+  py::dict types, files;
+  for (const auto& [name, type] : source.robot_types) {
+    types[py::bytes(name)] = py::make_tuple(py::bytes(type.file.string()), py::bytes(type.text.value_or("")));
+  }
+  for (const auto& [name, text] : source.files) files[py::bytes(name)] = py::bytes(text);
+  return py::make_tuple(py::bytes(source.file), py::bytes(source.text), types, files, world.seed);
+}
+
+std::shared_ptr<PythonWorld> worldOfTexts(const py::tuple& state) {
+  WorldSource source;
+  source.file = state[0].cast<std::string>();
+  source.text = state[1].cast<std::string>();
+  for (const auto& [name, type] : state[2].cast<py::dict>()) {
+    const auto of_type = type.cast<py::tuple>();
+    source.robot_types[name.cast<std::string>()] = {of_type[0].cast<std::string>(), of_type[1].cast<std::string>()};
+  }
+  for (const auto& [name, text] : state[3].cast<py::dict>()) {
+    source.files[name.cast<std::string>()] = text.cast<std::string>();
+  }
+  return worldOf(std::move(source), state[4].cast<std::uint64_t>());
+}
+
 }  // namespace
 
 std::shared_ptr<PythonWorld> PythonWorld::load(const fs::path& file, std::uint64_t seed) {
@@ -74,7 +99,9 @@ void bindWorld(py::module_& module) {
     return PythonWorld::parse(std::move(bytes), folder / (name + ".xml"), seed);
   };
   py::class_<PythonWorld, std::shared_ptr<PythonWorld>>(
-      module, "World", "A world with its robots, as read from a file or generated. It does not change.")
+      module, "World",
+      "A world with its robots, as read from a file or generated. It does not change.\n\n"
+      "A pickle contains the texts of all its files, so that it is the same world in any process.")
       .def_static(
           "load",
           [](const fs::path& file, Seed seed) {
@@ -129,6 +156,9 @@ void bindWorld(py::module_& module) {
             return toPython(svgOf(world.loaded.world, world.loaded.fleet, startsOf(world)));
           },
           "The plan as an SVG document, which notebooks show.")
+      .def(py::pickle(&sourceTextsOf, &worldOfTexts))
+      .def("__copy__", [](const std::shared_ptr<PythonWorld>& world) { return world; })
+      .def("__deepcopy__", [](const std::shared_ptr<PythonWorld>& world, const py::dict&) { return world; })
       .def("__repr__", [](const PythonWorld& world) { return toPython(described(world)); });
 }
 

@@ -7,9 +7,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "base/data_folders.h"
+#include "file_functions.h"
 #include "python_errors.h"
 #include "python_released.h"
-#include "replay/read_recording.h"
 
 namespace robosim {
 namespace {
@@ -57,10 +57,10 @@ void addSeriesTo(py::dict& arrays, const RecordedSeries& series) {
 }
 
 py::tuple readRawlog(const std::filesystem::path& file) {
-  const RecordingContents read = [&] {
+  const SeriesOfRecording read = [&] {
     PythonReleased no_python;
     std::uint64_t calls = 0;
-    return readRecording(requireDataFile(file).string(), {}, [&](std::uint64_t) {
+    return fileFunctions().read(requireDataFile(file).string(), [&](std::uint64_t) {
       if (++calls % 4096 != 0) return;
       no_python.acquire();
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -69,7 +69,7 @@ py::tuple readRawlog(const std::filesystem::path& file) {
   }();
   py::dict arrays;
   py::dict sensors;  // by robot, in the recording's order
-  for (const auto& series : read.table->series()) {
+  for (const auto& series : read.series) {
     addSeriesTo(arrays, series);
     const py::str robot = toPython(series.robot);
     if (!sensors.contains(robot)) sensors[robot] = py::list();

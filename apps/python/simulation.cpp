@@ -7,11 +7,10 @@
 
 #include "base/error_list.h"
 #include "environment/state_bytes.h"
+#include "file_functions.h"
 #include "python_errors.h"
 #include "python_released.h"
 #include "python_robot.h"
-#include "run/output_files.h"
-#include "run/outputs/intervention_note.h"
 #include "run/run_summary.h"
 
 namespace robosim {
@@ -216,19 +215,7 @@ std::uint64_t Simulation::advance(std::uint64_t steps_max) {
 }
 
 void Simulation::observe() {
-  const State& state = environment().state();
-  if (!recording_) return;
-  const auto notes = notesBefore(state, state.time.step, is_new_recording_);
-  std::vector<TopicMessage> messages;
-  if (world_topics_) {
-    const auto winner = state.winner();
-    messages = world_topics_->of(state.objects, notes, winner ? environment().fleet().robots[*winner].info.name : "",
-                                 nanosecondsOf(state.time.seconds()));
-  }
-  const auto& robots = environment().fleet().robots;
-  for (; recorded_robots_ < robots.size(); ++recorded_robots_) recording_->addRobot(robots[recorded_robots_].info);
-  recording_->write(state.readings, state.world_from_robot, state.commands, notes, messages);
-  is_new_recording_ = false;
+  if (recording_) recording_->observe(environment());
 }
 
 void Simulation::restore(std::string_view bytes) {
@@ -240,39 +227,19 @@ void Simulation::restore(std::string_view bytes) {
 
 void Simulation::record(const std::filesystem::path& file) {
   if (recording_) throw std::invalid_argument("the simulation is being recorded; call stop_recording() before");
-  refuseOverwriting(listInputFiles(world_->source.file, environment().world()), {file});
-  std::vector<RobotInfo> robots;
-  for (const auto& robot : environment().fleet().robots) robots.push_back(robot.info);
-  RunNote note = makeNote(world_->source, *run_, options_, elsewhere_);
-  recording_ =
-      std::make_unique<RawlogWriter>(file, robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
-  recorded_robots_ = robots.size();
-  world_topics_.reset();
-  if (auto* const mcap = recording_->mcap()) {
-    world_topics_ = std::make_unique<WorldTopics>(environment().model());
-    const State& state = environment().state();
-    world_topics_->begin(*mcap, note, state.objects, nanosecondsOf(state.time.seconds()));
-  }
-  recorded_ = std::make_unique<RunNote>(std::move(note));
-  is_new_recording_ = true;
-  observe();
+  recording_ = fileFunctions().record(file, world_->source, *run_, options_, elsewhere_);
 }
 
 void Simulation::stopRecording() {
   if (!recording_) throw std::invalid_argument("the simulation is not being recorded; call record(file) before");
-  const std::unique_ptr<RawlogWriter> ended = std::move(recording_);
+  const std::unique_ptr<SimulationRecording> ended = std::move(recording_);
   RunSummary summary = RunSummary::of(*run_);
   summary.world = world_->source.file;
   summary.seed = options_.environment.seed;
   summary.ended_by = environment().state().ended ? EndedBy::intervention
                      : environment().allHalted() ? EndedBy::all_halted
                                                  : EndedBy::interrupt;
-  recorded_->outcome = summary.json();
-  // Equal runs give equal files.
-  for (const char* of_the_clock : {"wall_s", "real_time_factor"}) recorded_->outcome.erase(of_the_clock);
-  const State& state = environment().state();
-  if (auto* const mcap = ended->mcap()) WorldTopics::end(*mcap, *recorded_);
-  ended->close(recorded_->text(), notesBefore(state, state.time.step + 1, false));
+  ended->finish(environment(), summary);
 }
 
 void Simulation::close() {

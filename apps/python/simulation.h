@@ -13,10 +13,8 @@
 #include "environment/local_hardware.h"
 #include "learning/observation_layout.h"
 #include "python_world.h"
-#include "recording/rawlog_writer.h"
 #include "run/local_run.h"
-#include "run/outputs/run_note.h"
-#include "run/outputs/world_topics.h"
+#include "run/outputs/simulation_recording.h"
 
 namespace robosim {
 
@@ -114,11 +112,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   std::vector<std::string> added_names_;          ///< of the robots that have been added, the last ones
   std::map<std::string, std::size_t> index_;
   std::map<std::string, std::vector<std::unique_ptr<ObservationLayout>>> layouts_;
-  std::unique_ptr<RawlogWriter> recording_;
-  std::unique_ptr<RunNote> recorded_;          ///< the recording's note
-  std::unique_ptr<WorldTopics> world_topics_;  ///< of a recording that is an MCAP file
-  std::size_t recorded_robots_ = 0;            ///< number of those that the recording has
-  bool is_new_recording_ = false;              ///< no step of it has been written
+  std::unique_ptr<SimulationRecording> recording_;
   std::atomic<bool> engine_runs_ = false;
   bool is_in_step_ = false;
   bool is_closed_ = false;

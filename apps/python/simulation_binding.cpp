@@ -1,4 +1,6 @@
 // Python's class Simulation.
+#include <algorithm>
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -28,9 +30,14 @@ const State& stateOf(const Simulation& simulation) { return toRead(simulation).e
 
 /// @throws pybind11::type_error
 SimulationHandle make(const std::shared_ptr<PythonWorld>& world, Seed seed, double period_s,
-                      WholeNumber<"threads", int> threads, const std::string& controller, const py::dict& controllers) {
-  if (!(period_s > 0 && period_s <= 1)) throw std::invalid_argument("period_s must lie in (0, 1] seconds");
-  if (threads < 1 || threads > 1024) throw std::invalid_argument("threads must be 1 to 1024");
+                      WholeNumber<"threads", int, "1 to 1024"> threads, const std::string& controller,
+                      const py::dict& controllers) {
+  if (!(period_s > 0 && period_s <= 1))
+    throw std::invalid_argument("period_s is " + std::to_string(period_s) +
+                                "; it must be a number of seconds in (0, 1], for example 0.1");
+  if (threads < 1 || threads > 1024)
+    throw std::invalid_argument("threads is " + std::to_string(threads.value) +
+                                "; it must be 1 to 1024, for example 2");
   Simulation::Options options;
   options.run.environment = {seed.value, period_s, threads.value};
   options.run.controller = controller;
@@ -54,11 +61,11 @@ void bindStepping(SimulationClass& simulation) {
   simulation
       .def(
           "step",
-          [](const SimulationHandle& of, WholeNumber<"the number of steps", std::int64_t> n) {
+          [](const SimulationHandle& of, WholeNumber<"the number of steps", std::int64_t, "at least 0"> n) {
             requireUsable(*of, SimulationAccess::structural);
             if (n < 0)
               throw std::invalid_argument("the number of steps is " + std::to_string(n.value) +
-                                          "; it must be at least 0");
+                                          "; it must be at least 0, for example 1");
             of->step(static_cast<std::uint64_t>(n.value));
           },
           py::arg("n") = 1,
@@ -105,10 +112,50 @@ void bindArrays(SimulationClass& simulation) {
            "(robots, values).\n\nkind: 'sonar', "
            "'laser', 'infrared', 'beacons' (ranges [m]), 'heat' [°C], 'compass' [rad], 'battery' [V],\n'bumper' (0 or "
            "1), "
-           "'odometry' (x, y [m], heading [rad], speed [m/s], turn rate [rad/s]), 'values',\n'stalled' (0 or 1), "
+           "'odometry' (x, y [m], heading [rad], speed [m/s], turn rate [rad/s]), 'values', 'blob_finder'\n(pixels, "
+           "centre x "
+           "and y, left, top, width, height of the blob of each colour [px]), 'stalled' (0 or 1), "
            "'pose'. "
            "Rows of robots without the sensor, and the ends of shorter ones, are NaN.\nThe array is new, or out, which "
            "must have this shape and type.");
+}
+
+/// Pictures by the names of the robots that have one in this step.
+py::dict imagesOf(Simulation& of, const std::string& sensor) {
+  requireUsable(of, SimulationAccess::read);
+  const auto& robots = of.environment().fleet().robots;
+  const auto takes_pictures = [&](const SensorInfo& info) {
+    return info.kind == SensorKind::camera && (sensor == nameOf(info.kind) || sensor == info.label);
+  };
+  py::dict images;
+  bool is_known = false;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const auto& sensors = *robots[i].info.sensors;
+    if (std::none_of(sensors.begin(), sensors.end(), takes_pictures)) continue;
+    is_known = true;
+    py::object image = robotImage(of.robot(i), sensor);
+    if (!image.is_none()) images[toPython(robots[i].info.name)] = std::move(image);
+  }
+  if (is_known) return images;
+  throw std::invalid_argument("no robot has the camera '" + sensor +
+                              "'; give a robot <camera/>, such as those of type pioneer3dx_camera");
+}
+
+void bindPictures(SimulationClass& simulation) {
+  simulation
+      .def(
+          "image",
+          [](Simulation& of, const py::str& robot, const std::string& sensor) {
+            requireUsable(of, SimulationAccess::read);
+            return robotImage(of.robot(of.indexOf(toBytes(robot))), sensor);
+          },
+          py::arg("robot"), py::arg("sensor") = "camera",
+          "Picture that a robot's camera took in the last step: uint8, shape (height, width, 3): red, green, blue, the "
+          "first row at the top.\n\nNone in a step without one, because of the camera's rate.")
+      .def(
+          "images", imagesOf, py::arg("sensor") = "camera",
+          "The pictures of the last step, as image(), by the names of the robots that took one: of the first camera of "
+          "each, or of the camera with this label.");
 }
 
 void bindMessages(SimulationClass& simulation) {
@@ -234,6 +281,17 @@ void bindSimulation(py::module_& module) {
       .def_property_readonly("closed", &Simulation::isClosed)
       .def("__enter__", [](const SimulationHandle& of) { return of; })
       .def("__exit__", [](Simulation& of, const py::args&) { close(of); })
+      .def("__deepcopy__",
+           [](const Simulation& of, const py::dict&) {
+             requireUsable(of, SimulationAccess::structural);
+             return of.fork();
+           })
+      .def(
+          "__reduce__",
+          [](const Simulation&) -> py::tuple {
+            throw py::type_error(
+                "a simulation cannot be pickled, because of its controllers; pickle its World and the bytes of save()");
+          })
       .def("__repr__", [](const Simulation& of) {
         if (of.isClosed()) return py::str("<Simulation, closed>");
         const State& state = stateOf(of);
@@ -243,6 +301,7 @@ void bindSimulation(py::module_& module) {
   bindStepping(simulation);
   bindArrays(simulation);
   bindMessages(simulation);
+  bindPictures(simulation);
   bindSaving(simulation);
   bindInterventions(simulation);
 }

@@ -52,7 +52,7 @@ mrpt::math::TPose2D startOf(const std::string& text) {
 
 void serveMap(MobileSimArguments arguments) {
   ServeArguments& serve = arguments.serve;
-  serve.arcos_all = true;
+  serve.arcos_all = serve.arcos_maps = true;
   serve.arcos =
       serve.arcos.empty() ? std::to_string(arguments.port) : serve.arcos + ":" + std::to_string(arguments.port);
   if (arguments.robots.empty() && serve.arcos_factory.empty()) arguments.robots.emplace_back("p3dx");

@@ -35,6 +35,7 @@ ArcosHardware::Options arcosHardwareOptions(const RobotArguments& arguments, con
   };
   if (!arguments.names.empty()) options.name = arguments.names.front();
   if (!arguments.laser.empty()) options.laser = loadSickLaser(arguments.laser, logRobot);
+  options.requests_laser = !arguments.has_no_laser_request;
   options.log = logRobot;
   options.interrupted = [&interrupt] { return interrupt.isRequested(); };
   return options;
@@ -58,7 +59,14 @@ void addArcosRobotOptions(CLI::App& command, RobotArguments& arguments) {
       ->type_name("FILE")
       ->check(fileName())
       ->group(kRealRobotGroup);
-  for (const char* name : {"--laser", "--arcos-log"}) dependsOn(command.get_option(name), arcos);
+  command
+      .add_flag(
+          "--no-laser-request", arguments.has_no_laser_request,
+          "do not ask a simulator for the scans of its laser: the robot then has none, and SIPs alone fit on a slow "
+          "line")
+      ->excludes("--laser")
+      ->group(kRealRobotGroup);
+  for (const char* name : {"--laser", "--arcos-log", "--no-laser-request"}) dependsOn(command.get_option(name), arcos);
 }
 
 void driveArcosRobot(const RobotArguments& arguments) {

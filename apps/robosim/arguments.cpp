@@ -118,6 +118,15 @@ void addThreads(CLI::App& command, int& threads, const std::string& help) {
       ->group(kRunGroup);
 }
 
+CLI::Option* addReadingThreads(CLI::App& command, int& threads) {
+  return command
+      .add_option("--threads", threads, "threads that decode a rawlog of RoboSim; the results do not depend on it")
+      ->check(wholeNumberIn(1, 1024))
+      ->type_name("NUMBER")
+      ->default_str("all cores, at most 16")
+      ->group(kRunGroup);
+}
+
 void warnOfPartialStep(double time_s, double period_s) {
   const double steps = std::max(1.0, std::floor(time_s / period_s + 0.5));
   if (std::abs(steps * period_s - time_s) <= 1e-6 * time_s) return;
@@ -195,6 +204,20 @@ void addSeedOption(CLI::App& command, std::uint64_t& seed, const std::string& he
       ->type_name("NUMBER")
       ->capture_default_str()
       ->group(kWorldGroup);
+}
+
+CLI::Option* addDistributionOption(CLI::App& command, RosDistribution& distribution) {
+  return command
+      .add_option_function<std::string>(
+          "--ros2-distribution",
+          [&distribution](const std::string& name) {
+            distribution = name == "humble" ? RosDistribution::humble : RosDistribution::jazzy;
+          },
+          "release of ROS 2 whose messages are written: jazzy, which are also those of Iron and later, or humble, "
+          "whose "
+          "Range has no variance")
+      ->check(CLI::IsMember({"humble", "jazzy"}))
+      ->default_str("jazzy");
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/file_kind.h"
+#include "base/ros_distribution.h"
 #include "environment/world_changes.h"
 #include "robosim/cli11_names.h"
 
@@ -46,6 +47,8 @@ double speedNumber(const std::string& speed);
 void addTime(CLI::App& command, double& time_s, const std::string& help);
 void addStep(CLI::App& command, double& period_s);
 void addThreads(CLI::App& command, int& threads, const std::string& help);
+/// --threads of a command that reads recordings. @param threads unchanged by default
+CLI::Option* addReadingThreads(CLI::App& command, int& threads);
 ///@}
 /// Warns on standard error when a time is not a multiple of the time step: the run then ends at the nearest multiple.
 void warnOfPartialStep(double time_s, double period_s);
@@ -57,6 +60,8 @@ void addRandomStartsOption(CLI::App& command, WorldChanges& changes);
 CLI::Option* addStartDistanceOption(CLI::App& command, WorldChanges& changes);
 /// Adds `--seed` of a world or a run.
 void addSeedOption(CLI::App& command, std::uint64_t& seed, const std::string& help);
+/// Adds --ros2-distribution, whose partners depend on the command.
+CLI::Option* addDistributionOption(CLI::App& command, RosDistribution& distribution);
 /// Adds `--noise`: errors of sensors in addition to those of the world.
 void addNoiseOption(CLI::App& command, WorldChanges& changes);
 

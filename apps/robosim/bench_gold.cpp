@@ -11,6 +11,7 @@
 #include "base/data_folders.h"
 #include "base/interrupt.h"
 #include "base/printable_text.h"
+#include "base/progress.h"
 #include "base/text_table.h"
 #include "base/type_choice.h"
 #include "base/xml_element.h"
@@ -34,6 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kRunsMax = 10'000'000;
+constexpr std::size_t kDefaultPages = 2, kPagesMax = 1000;
 
 struct GoldArguments {
   std::vector<std::string> files;
@@ -48,6 +50,7 @@ struct GoldArguments {
   std::string csv;
   std::string report;  ///< folder; empty: none
   bool resume = false;
+  std::size_t pages = kDefaultPages;  ///< of each strategy
 };
 
 /// A word of a command for a shell.
@@ -94,6 +97,7 @@ std::string describeCommand(const GoldArguments& arguments, const SearchPlan& pl
   add("--seed", std::to_string(plan.seed));
   add("--time", toText(plan.time_s));
   add("--step", toText(plan.period_s));
+  if (arguments.pages != kDefaultPages) add("--pages", std::to_string(arguments.pages));
   add("--report", "FOLDER");
   return command;
 }
@@ -152,6 +156,27 @@ std::unique_ptr<Journal> openJournal(const GoldArguments& arguments, const Searc
                                    [&](std::size_t index, SearchRun run) { runs[index] = std::move(run); });
 }
 
+/// @throws Interrupted
+void writePages(const GoldArguments& arguments, const SearchBenchmark& benchmark, const std::vector<RunPageLink>& pages,
+                const Interrupt& interrupt) {
+  if (pages.empty()) return;
+  std::error_code error;
+  fs::create_directories(fs::path(arguments.report) / "runs", error);
+  std::size_t written = 0;
+  Progress progress;
+  for (const auto& page : pages) {
+    if (progress.due()) {
+      progress.show("pages of runs: " + std::to_string(written) + " of " + std::to_string(pages.size()) + " …");
+    }
+    if (!benchmark.writePage(page.run, fs::path(arguments.report) / page.file,
+                             [&] { return interrupt.isRequested(); })) {
+      throw Interrupted("interrupted after " + std::to_string(written) + " of " + std::to_string(pages.size()) +
+                        " pages of runs; --resume makes the others, and then the report");
+    }
+    ++written;
+  }
+}
+
 void bench(const GoldArguments& arguments) {
   RankGroup& group = rankGroup();
   refuseThreadsOnRanks(arguments.threads);
@@ -194,7 +219,11 @@ void bench(const GoldArguments& arguments) {
                       (journal ? "; --resume makes the others, and then the report" : ""));
   }
   if (!journal) return;
-  writeReport(arguments.report, plan, runs, describeCommand(arguments, plan));
+  const std::string command = describeCommand(arguments, plan);
+  writeReportData(arguments.report, plan, runs, command);
+  const auto pages = chooseRuns(plan, runs, arguments.pages);
+  writePages(arguments, benchmark, pages, interrupt);
+  writeReportPage(arguments.report, plan, runs, command, pages);
   std::cout << "report  " << printableText((fs::path(arguments.report) / "index.html").string()) << '\n';
 }
 
@@ -268,9 +297,17 @@ void addBenchGold(CLI::App& parent) {
       ->check(fileName());
   dependsOn(command->add_flag("--resume", a->resume, "continue the interrupted benchmark of the --report folder"),
             command->get_option("--report"));
+  dependsOn(command
+                ->add_option("--pages", a->pages,
+                             "interactive pages of so many runs of each controller, to which the report has links: the "
+                             "fastest, one that did not find the gold or else the slowest, and those in between")
+                ->check(wholeNumberIn(0, kPagesMax))
+                ->type_name("NUMBER")
+                ->default_str(std::to_string(kDefaultPages)),
+            command->get_option("--report"));
   setGroup(*command, kRunGroup, {"--runs", "--controller", "--team", "--condition", "--observer"});
   setGroup(*command, kWorldGroup, {"--seed"});
-  setGroup(*command, kRecordingGroup, {"--csv", "--report", "--resume"});
+  setGroup(*command, kRecordingGroup, {"--csv", "--report", "--resume", "--pages"});
   command->callback([a, command] {
     a->robots = command->get_option("--robot")->results();
     completePlan(*a);

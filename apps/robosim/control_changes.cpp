@@ -19,6 +19,7 @@ struct ChangeArguments {
   double x_m = 0, y_m = 0, share = 1;
   std::optional<double> heading_deg, heat_celsius, height_m, reflectivity;
   std::vector<float> color;
+  decltype(ChangeObject::properties) properties;
 };
 
 }  // namespace
@@ -59,7 +60,7 @@ void addChanges(CLI::App& control, const std::function<void(const Change&)>& sup
       ->type_name("XML");
 
   auto* change = add("change", "change properties of an object", [a]() -> Change {
-    ChangeObject object{a->name, a->heat_celsius, {}, a->height_m, a->reflectivity};
+    ChangeObject object{a->name, a->heat_celsius, {}, a->height_m, a->reflectivity, a->properties};
     if (!a->color.empty()) object.color = {a->color[0], a->color[1], a->color[2]};
     return object;
   });
@@ -71,6 +72,10 @@ void addChanges(CLI::App& control, const std::function<void(const Change&)>& sup
       ->type_name("R,G,B");
   change->add_option("--height", a->height_m, "its underside stays")->type_name("METRES");
   change->add_option("--reflectivity", a->reflectivity, "of a laser's light, [0, 1]")->type_name("SHARE");
+  for (std::size_t i = 0; i < kBodyProperties.size(); ++i) {
+    const BodyProperty& property = kBodyProperties[i];
+    change->add_option(std::string("--") + property.name, a->properties[i], property.help)->type_name(property.unit);
+  }
 
   auto* activity = add("activity", "make a robot active, halted or found", [a] {
     XmlElement element;

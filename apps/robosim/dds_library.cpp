@@ -1,8 +1,8 @@
 #include "robosim/dds_library.h"
 
 #include "base/error_list.h"
+#include "base/loaded_function.h"
 #include "dds/cyclone/cyclone_participant.h"
-#include "robosim/loaded_function.h"
 
 namespace robosim {
 

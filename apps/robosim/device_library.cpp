@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "base/error_list.h"
+#include "base/loaded_function.h"
 #include "devices/devices.h"
-#include "robosim/loaded_function.h"
 
 namespace robosim {
 namespace {

@@ -42,6 +42,8 @@ struct ExportArguments {
   std::optional<std::uint64_t> seed;  ///< of random places; default: kDefaultSeed
   FigureArguments figure;
   LayerArguments layers;
+  RosDistribution distribution = RosDistribution::jazzy;
+  int threads = 0;  ///< of a recording; 0: not given
 };
 
 /// Files to be written, by path: some formats consist of two files.
@@ -138,7 +140,9 @@ void makeRosMap(Source& source, const fs::path& out, Files& files) {
 void makePlan(Source& source, const fs::path& out, Files& files) {
   const LoadedWorld& loaded = source.loaded();
   DrawnRun start = startOf(loaded.fleet);
-  start.has_names = !source.arguments().layers.hides("names");
+  ViewLayers layers = source.arguments().layers.layers();
+  layers.only = source.arguments().layers.only().flagsIn(loaded.fleet, RobotSelection::Unmatched::refused);
+  applyLayers(start, layers, loaded.world, loaded.fleet);
   files[out] = planPicture(requirePictureFormat(out), loaded.world, loaded.fleet, start);
 }
 
@@ -168,11 +172,15 @@ const std::vector<Format>& formats() {
        }},
       {".3Dscene", "MRPT's SceneViewer3D, with the robots",
        [](Source& source, const fs::path& out, Files& files) {
-         files[out] = toStockScene(source.loaded().world, source.loaded().fleet);
+         const LoadedWorld& loaded = source.loaded();
+         ViewLayers layers = source.arguments().layers.layers();
+         layers.only = source.arguments().layers.only().flagsIn(loaded.fleet, RobotSelection::Unmatched::refused);
+         files[out] = toStockScene(loaded.world, loaded.fleet, layers);
        }},
       {".svg", "a plan to scale, with the robots; of a rawlog: a figure with the trajectories and events", makePlan,
        RecordingFormat::picture},
       {".pdf", "the same", makePlan, RecordingFormat::picture},
+      {".html", "of a rawlog: an interactive page of the run, in one file", {}, RecordingFormat::page},
       {".csv", "of a rawlog: one row per robot and step, with all values", {}, RecordingFormat::csv},
       {".npz", "of a rawlog: NumPy's arrays, for each robot and sensor", {}, RecordingFormat::npz},
       {".rawlog", "of a recording: all observations, as an MRPT rawlog", {}, RecordingFormat::rawlog},
@@ -241,13 +249,15 @@ std::vector<RecordingOutput> recordingOutputs(const ExportArguments& arguments) 
                                   [](const std::string& out) { return !formatOf(out).make; });
   const bool has_table = table != arguments.outs.end();
   if (!has_table && !isRecording(arguments.world)) return {};
-  const std::string what = has_table ? *table + " is a table of a rawlog" : arguments.world + " is a rawlog";
+  const char* const kind =
+      has_table && formatOf(*table).of_recording == RecordingFormat::page ? " is a page" : " is a table";
+  const std::string what = has_table ? *table + kind + " of a rawlog" : arguments.world + " is a rawlog";
   std::vector<RecordingOutput> outputs;
   for (const auto& out : arguments.outs) {
     const auto format = formatOf(out).of_recording;
     if (!format)
       throw ConfigError(out + ": can be made of a world only, but " + what + "; export it by another command");
-    outputs.push_back({out, *format});
+    outputs.push_back({out, *format, arguments.distribution});
   }
   if (arguments.resolution_m || !arguments.heights_m.empty() || arguments.seed) {
     throw ConfigError(what + "; --resolution, --heights and --seed are for worlds");
@@ -256,20 +266,16 @@ std::vector<RecordingOutput> recordingOutputs(const ExportArguments& arguments) 
   return outputs;
 }
 
-const std::vector<std::string> kFigureLayers{"paths", "events", "names"}, kPlanLayers{"names"}, kMapLayers{};
-
-/// @param drawn layers that the figures have
-/// @throws ConfigError for layers that they do not have
-void checkLayers(const ExportArguments& arguments, const std::string& figures, const std::vector<std::string>& drawn) {
-  for (const auto& layer : arguments.layers.hidden) {
-    if (std::find(drawn.begin(), drawn.end(), layer) != drawn.end()) continue;
-    throw ConfigError("--hide " + layer + ": " + figures + " has no " + layer +
-                      "; omit it, or use robosim view --offscreen");
-  }
-}
-
 void exportOfRecording(const ExportArguments& arguments, const std::vector<RecordingOutput>& outputs) {
-  checkLayers(arguments, "a figure of a rawlog by robosim export", kFigureLayers);
+  const auto has = [&](RecordingFormat format) {
+    return std::any_of(outputs.begin(), outputs.end(), [format](const auto& out) { return out.format == format; });
+  };
+  if (has(RecordingFormat::picture)) {
+    std::vector<std::string> layers = figureLayers();
+    std::erase(layers, "sensors");
+    arguments.layers.check("a figure of a rawlog by robosim export", layers);
+  }
+  if (has(RecordingFormat::page)) arguments.layers.check("the page of a run", pageLayers());
   FilesByOutput files;
   for (const auto& output : outputs) files[output.file.string()] = {output.file};
   check(arguments, files);
@@ -280,7 +286,8 @@ void exportOfRecording(const ExportArguments& arguments, const std::vector<Recor
   }
   const Interrupt interrupt;
   const bool is_undamaged =
-      exportRecording(arguments.world, outputs, &interrupt, arguments.figure.page(), arguments.layers.layers());
+      exportRecording(arguments.world, outputs, &interrupt, arguments.figure.page(), arguments.layers.layers(),
+                      arguments.layers.only(), arguments.threads > 0 ? arguments.threads : threadsForReading());
   for (const auto& output : outputs) printSize(output.file, fs::file_size(output.file));
   if (!is_undamaged) throw Exit{kBadInput};
 }
@@ -288,9 +295,19 @@ void exportOfRecording(const ExportArguments& arguments, const std::vector<Recor
 void exportFiles(const ExportArguments& arguments) {
   const auto of_recording = recordingOutputs(arguments);
   if (!of_recording.empty()) return exportOfRecording(arguments, of_recording);
-  const auto is_plan = [](const std::string& out) { return endsWith(out, ".svg") || endsWith(out, ".pdf"); };
-  const bool has_plan = std::any_of(arguments.outs.begin(), arguments.outs.end(), is_plan);
-  checkLayers(arguments, has_plan ? "a plan of a world" : "a map", has_plan ? kPlanLayers : kMapLayers);
+  if (arguments.threads > 0) throw ConfigError("--threads: only recordings are read with several threads; omit it");
+  const auto has = [&](std::initializer_list<const char*> endings) {
+    return std::any_of(arguments.outs.begin(), arguments.outs.end(), [&](const std::string& out) {
+      return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return endsWith(out, ending); });
+    });
+  };
+  if (has({".svg", ".pdf"})) {
+    arguments.layers.check("a plan of a world", {"names", "density"});
+  } else if (has({".3Dscene"})) {
+    arguments.layers.check("a 3D scene", {"names"});
+  } else {
+    arguments.layers.check("a map", {}, false);
+  }
   FilesByOutput outs;
   for (const auto& out : arguments.outs) {
     arguments.figure.check(false, out);
@@ -325,7 +342,7 @@ std::string formatsHelp() {
   for (const auto& format : formats()) rows.push_back({"  " + std::string(format.ending), format.help});
   return "Formats, by the extension of OUT:\n" + listing(rows) +
          "Try:  robosim export worlds/opho2_1.xml opho2_1.gridmap opho2_1.yaml opho2_1.bt opho2_1.svg\n"
-         "      robosim export run.rawlog run.csv run.npz run.pdf";
+         "      robosim export run.rawlog run.html run.csv run.npz run.pdf";
 }
 
 }  // namespace
@@ -334,10 +351,11 @@ void addExport(CLI::App& program) {
   auto* command = addSubcommand(program, "export");
   auto arguments = std::make_shared<ExportArguments>();
   command
-      ->add_option("WORLD", arguments->world,
-                   "world file, also of Stage (.world), or map file; or a recording of RoboSim or another program, for "
-                   ".csv, .npz, .rawlog, .png, .svg and .pdf: an MRPT rawlog, or a bag of ROS 2 (.mcap, .db3 or its "
-                   "folder)")
+      ->add_option(
+          "WORLD", arguments->world,
+          "world file, also of Stage (.world), or map file; or a recording of RoboSim or another program, for "
+          ".html, .csv, .npz, .rawlog, .png, .svg and .pdf: an MRPT rawlog, a bag of ROS 2 (.mcap, .db3 or its "
+          "folder), or a log of CARMEN (.log, .clf)")
       ->transform(inputFile([] {
         std::vector<FileKind> kinds = kWorldKinds;
         kinds.insert(kinds.end(), kRecordingKinds.begin(), kRecordingKinds.end());
@@ -381,12 +399,19 @@ void addExport(CLI::App& program) {
                 ->group(kGridGroup),
             kGrids, has_grid);
   arguments->figure.addTo(*command, {});
-  dependsOn(arguments->layers.addTo(*command, "layers that a figure or a plan is drawn without")->group(kFigureGroup),
-            "an OUT in .png, .svg or .pdf", [arguments] {
-              return std::any_of(arguments->outs.begin(), arguments->outs.end(), [](const std::string& out) {
-                return endsWith(out, ".png") || endsWith(out, ".svg") || endsWith(out, ".pdf");
-              });
-            });
+  for (CLI::Option* const option : arguments->layers.addTo(*command)) {
+    dependsOn(option, "an OUT in .png, .svg, .pdf, .html or .3Dscene", [arguments] {
+      return std::any_of(arguments->outs.begin(), arguments->outs.end(), [](const std::string& out) {
+        return endsWith(out, ".png") || endsWith(out, ".svg") || endsWith(out, ".pdf") || endsWith(out, ".html") ||
+               endsWith(out, ".3Dscene");
+      });
+    });
+  }
+  dependsOn(addDistributionOption(*command, arguments->distribution), "an OUT in .mcap", [arguments] {
+    return std::any_of(arguments->outs.begin(), arguments->outs.end(),
+                       [](const std::string& out) { return endsWith(out, ".mcap"); });
+  });
+  addReadingThreads(*command, arguments->threads);
   command->footer(formatsHelp());
   command->callback([arguments] { exportFiles(*arguments); });
 }

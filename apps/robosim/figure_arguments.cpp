@@ -37,49 +37,105 @@ void FigureArguments::check(bool is_figure, const std::string& file) const {
 
 namespace {
 
-struct NamedLayer {
-  const char* name;
-  bool TopViewLayers::*is_shown;
-};
-
-/// To add a layer, add a line here.
-constexpr NamedLayer kLayers[] = {
-    {"paths", &TopViewLayers::paths},
-    {"sensors", &TopViewLayers::sensors},
-    {"events", &TopViewLayers::events},
-    {"names", &TopViewLayers::names},
-};
-
-std::vector<std::string> layerNames() {
+/// @param keep whether a layer is among them
+template <typename Keep>
+std::vector<std::string> layerNames(const Keep& keep) {
   std::vector<std::string> names;
-  for (const auto& layer : kLayers) names.emplace_back(layer.name);
+  for (const ViewLayer& layer : viewLayers()) {
+    if (keep(layer)) names.emplace_back(layer.name);
+  }
   return names;
 }
 
-std::string checkLayer(const std::string& name) {
-  const auto names = layerNames();
-  if (std::find(names.begin(), names.end(), name) != names.end()) return "";
-  const std::string nearest = didYouMean(name, names);
-  return "there is no layer '" + name + "'" + (nearest.empty() ? "; the layers are " + listed(names) : nearest);
+std::vector<std::string> layersShown(bool at_first) {
+  return layerNames([at_first](const ViewLayer& layer) { return layer.is_shown_first == at_first; });
+}
+
+/// For --hide the layers that are shown without an option, for --show the others.
+CLI::Validator layerName(bool is_hidden) {
+  return {[is_hidden](std::string& name) {
+            const auto names = layersShown(is_hidden), others = layersShown(!is_hidden);
+            if (std::find(names.begin(), names.end(), name) != names.end()) return std::string();
+            if (std::find(others.begin(), others.end(), name) != others.end()) {
+              return "the layer '" + name + "' is " +
+                     (is_hidden ? "not shown without --show" : "shown unless --hide is given") + "; omit it";
+            }
+            const std::string nearest = didYouMean(name, names);
+            return "there is no layer '" + name + "'" +
+                   (nearest.empty() ? "; the layers are " + listed(names) : nearest);
+          },
+          ""};
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
 
-CLI::Option* LayerArguments::addTo(CLI::App& command, const std::string& help) {
-  return command.add_option("--hide", hidden, help + ": " + listed(layerNames()))
-      ->delimiter(',')
-      ->type_name("LAYER,…")
-      ->check(CLI::Validator(checkLayer, ""));
+std::vector<CLI::Option*> LayerArguments::addTo(CLI::App& command) {
+  return {
+      command
+          .add_option("--hide", hidden,
+                      "leave out these layers; in a window, until they are switched on: " + listed(layersShown(true)))
+          ->delimiter(',')
+          ->type_name("LAYER,…")
+          ->check(layerName(true))
+          ->group(kFigureGroup),
+      command
+          .add_option("--show", shown,
+                      "color the floor by robots per m², where they are at that time (density), or by visits per m² "
+                      "(visits)")
+          ->type_name("density|visits")
+          ->expected(1)
+          ->check(layerName(false))
+          ->group(kFigureGroup),
+      command
+          .add_option("--only", robots,
+                      "show these robots only: names, with * and ? for any characters, or ranges as Robot3..12")
+          ->delimiter(',')
+          ->type_name("ROBOT,…")
+          ->group(kFigureGroup)};
 }
 
-bool LayerArguments::hides(const std::string& layer) const {
-  return std::find(hidden.begin(), hidden.end(), layer) != hidden.end();
-}
-
-TopViewLayers LayerArguments::layers() const {
-  TopViewLayers layers;
-  for (const auto& layer : kLayers) layers.*layer.is_shown = !hides(layer.name);
+ViewLayers LayerArguments::layers() const {
+  ViewLayers layers;
+  for (const ViewLayer& layer : viewLayers()) {
+    if (contains(hidden, layer.name)) setShown(layers, layer, false);
+    if (contains(shown, layer.name)) setShown(layers, layer, true);
+  }
   return layers;
+}
+
+void LayerArguments::check(const std::string& output, const std::vector<std::string>& drawn, bool has_robots) const {
+  for (const auto& [option, names] : {std::pair{"--hide", &hidden}, {"--show", &shown}}) {
+    for (const auto& name : *names) {
+      if (contains(drawn, name)) continue;
+      throw ConfigError(std::string(option) + " " + name + ": " + output + " has no " + name + "; omit it");
+    }
+  }
+  if (!robots.empty() && !has_robots) throw ConfigError("--only: " + output + " has no robots; omit it");
+}
+
+std::vector<std::string> windowLayers() {
+  return layerNames([](const ViewLayer& layer) { return layer.key != 0; });
+}
+
+std::vector<std::string> figureLayers() {
+  return layerNames([](const ViewLayer&) { return true; });
+}
+
+std::vector<std::string> pageLayers() {
+  return layerNames([](const ViewLayer& layer) {
+    return  // which shows sensors only when they are switched on
+        layer.is_shown_first && layer.is_shown != &ViewLayers::starts && layer.is_shown != &ViewLayers::sensors;
+  });
+}
+
+std::vector<std::string> planLayers() {
+  return layerNames([](const ViewLayer& layer) {
+    return layer.is_shown != &ViewLayers::sensors && layer.is_shown != &ViewLayers::events;
+  });
 }
 
 }  // namespace robosim

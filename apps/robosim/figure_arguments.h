@@ -6,7 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "rendering/figure_page.h"
-#include "rendering/top_view.h"
+#include "robots/robot_selection.h"
+#include "robots/view_layers.h"
 
 namespace robosim {
 
@@ -21,14 +22,25 @@ struct FigureArguments {
   void check(bool is_figure, const std::string& file) const;
 };
 
-/// --hide: layers that a picture is drawn without.
+/// --hide, --show and --only: what pictures, videos, figures and windows show. Each command has all three.
 struct LayerArguments {
-  std::vector<std::string> hidden;
+  std::vector<std::string> hidden, shown, robots;
 
-  /// Adds the option. @param help before the names of the layers
-  CLI::Option* addTo(CLI::App& command, const std::string& help);
-  bool hides(const std::string& layer) const;
-  TopViewLayers layers() const;
+  /// Adds the options, in the order of their declaration above.
+  std::vector<CLI::Option*> addTo(CLI::App& command);
+  ViewLayers layers() const;
+  RobotSelection only() const { return RobotSelection(robots); }
+  /// Refuses what an output cannot show.
+  /// @param output in the error text, such as "a plan of a world" @param drawn names of its layers
+  /// @param has_robots whether it draws robots @throws ConfigError
+  void check(const std::string& output, const std::vector<std::string>& drawn, bool has_robots = true) const;
 };
+
+/// Names of the layers of a window, picture or video, of a figure of a run or a step, of the page of a run, and of a
+/// plan by run --picture.
+std::vector<std::string> windowLayers();
+std::vector<std::string> figureLayers();
+std::vector<std::string> pageLayers();
+std::vector<std::string> planLayers();
 
 }  // namespace robosim

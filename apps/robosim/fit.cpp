@@ -54,8 +54,8 @@ void addFit(CLI::App& program) {
   auto a = std::make_shared<FitArguments>();
   command
       ->add_option("RAWLOG", a->rawlog,
-                   "a recording of a real robot with a laser scanner, best at rest: an MRPT rawlog, or a bag of ROS 2 "
-                   "(.mcap, .db3 or its folder)")
+                   "a recording of a real robot with a laser scanner, best at rest: an MRPT rawlog, a bag of ROS 2 "
+                   "(.mcap, .db3 or its folder), or a log of CARMEN (.log, .clf)")
       ->transform(inputFile(kRecordingKinds))
       ->type_name("FILE")
       ->required();

@@ -42,6 +42,6 @@ int start(const char* part, char** argv) {
 int main(int argc, char** argv) {
   robosim::replaceHelpSubcommand(argc, argv);
   const robosim::Subcommand* subcommand = argc > 1 ? robosim::subcommandNamed(argv[1]) : nullptr;
-  if (subcommand) return robosim::start(robosim::partFor(*subcommand, argc, argv), argv);
+  if (subcommand) return robosim::start(robosim::partFor(robosim::libraryFor(*subcommand, argc, argv)), argv);
   return robosim::executeRobosim({robosim::addNames}, argc, argv);
 }

@@ -9,11 +9,11 @@
 #include <string_view>
 
 #include "base/error_list.h"
+#include "base/loaded_function.h"
 #include "base/log.h"
 #include "distributed/mpi/mpi_ranks.h"
 #include "distributed/ranks/agreement.h"
 #include "distributed/ranks/launcher.h"
-#include "robosim/loaded_function.h"
 #include "robosim/subcommands.h"
 
 namespace robosim {
@@ -27,7 +27,8 @@ std::unique_ptr<RankGroup> connectRanks(const LaunchedRank& launched) {
   Connect connect = nullptr;
   try {
     // Global: the components that Open MPI loads use its functions.
-    connect = loadedFunction<Connect>("librobosim-mpi.so." ROBOSIM_SOVERSION, "robosimConnectMpiRanks", RTLD_GLOBAL);
+    connect = loadedFunction<Connect>("librobosim-mpi.so." ROBOSIM_SOVERSION, "robosimConnectMpiRanks",
+                                      RTLD_NOW | RTLD_GLOBAL);
   } catch (const std::exception& error) {
     throw ConfigError("was started in " + std::to_string(launched.size) +
                       " processes, but this installation has no MPI (" + error.what() +
@@ -49,7 +50,7 @@ void checkSubcommand(int argc, char** argv) {
   const auto alone = [&](std::string_view option) {
     return hasOption(option, argc, argv) ? " " + std::string(option) : "";
   };
-  const std::string shown = alone(kViewOption) + alone(kFoxgloveOption) + alone(kRos2Option);
+  const std::string shown = alone(kViewOption) + alone(kFoxgloveOption) + alone(kRos2Option) + alone(kWebOption);
   const bool has_ranks =
       std::find(kSubcommandsOnRanks.begin(), kSubcommandsOnRanks.end(), subcommand->name) != kSubcommandsOnRanks.end();
   if (has_ranks && shown.empty()) return;

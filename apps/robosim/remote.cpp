@@ -1,6 +1,8 @@
 #include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
@@ -14,6 +16,7 @@
 #include "console/console.h"
 #include "net/host_port.h"
 #include "net/listen.h"
+#include "remote/orders.h"
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/connection.h"
@@ -34,13 +37,20 @@ constexpr const char* kRemoteSession =
     "For access from other machines, add a certificate and tokens:\n"
     "  robosim remote ROBOTS.xml --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --tokens tokens\n"
     "Open https://HOST:8443/#token=TOKEN to drive; a token with the role viewer permits viewing only.\n"
+    "An open house with rounds of three minutes, for visitors of two teams:\n"
+    "  robosim remote ROBOTS.xml --hall 180 --team Red --team Blue --results today.json\n"
     "An operator's page also starts and stops the recording of a run that was started with serve --record.\n";
+
+constexpr std::size_t kMaxTeams = 8;
 
 struct RemoteArguments {
   std::string robots;
   std::string listen = "127.0.0.1:8080";
   ListenerArguments listener;
   ConnectionArguments connection;
+  std::optional<int> round_s;
+  std::vector<std::string> teams;
+  std::string results;
   std::optional<int> joystick;
   int top_speed_percent = 100;
 };
@@ -52,6 +62,20 @@ std::vector<RobotAddress> readTeam(const std::string& file) {
   auto team = readRobotList(file, errors);
   errors.throwIfAny();
   return team;
+}
+
+/// Accepts a name that a button of the page can show.
+CLI::Validator teamName() {
+  constexpr std::size_t max_bytes = 20;
+  return {[](const std::string& name) -> std::string {
+            try {
+              checkText(name, max_bytes, "the name");
+            } catch (const WireError& error) {
+              return error.what();
+            }
+            return name.empty() ? "the name is empty" : "";
+          },
+          ""};
 }
 
 /// An address that a browser can open: the name of this machine instead of all its addresses.
@@ -69,7 +93,8 @@ void openConsole(const RemoteArguments& arguments) {
   const auto team = readTeam(arguments.robots);
   const ConnectOptions connect_options = arguments.connection.connectOptions();
   ViewerMap map(connect_options);
-  RunMonitor run(connect_options);
+  RunMonitor run(connect_options,
+                 arguments.round_s ? RunMonitor::Restart::at_any_time : RunMonitor::Restart::after_end);
   Console::Options options;
   options.listen = hostAndPort(arguments.listen);
   options.tls = arguments.listener.identity();
@@ -80,6 +105,12 @@ void openConsole(const RemoteArguments& arguments) {
   options.control.connect_options = connect_options;
   options.map = &map;
   options.run = &run;
+  if (arguments.teams.size() > kMaxTeams) {
+    throw ConfigError("--team: " + std::to_string(arguments.teams.size()) +
+                      " teams; at most 8 are possible, drop some");
+  }
+  if (arguments.round_s) options.rounds = {std::chrono::seconds(*arguments.round_s), arguments.teams};
+  options.results = arguments.results;
   options.log = log;
   Console console(options, team);
   log("the console is at " + std::string(options.tls ? "https" : "http") + "://" +
@@ -126,8 +157,25 @@ void addRemote(CLI::App& program) {
           ->type_name("PERCENT")
           ->capture_default_str(),
       joystick);
+  auto* hall = command
+                   ->add_option("--hall", a->round_s,
+                                "for an open house: visitors drive in turn, for rounds of this length, each in a new "
+                                "run; between them the robot explores by itself")
+                   ->check(wholeNumberIn(10, 3600))
+                   ->type_name("SECONDS");
+  dependsOn(command->add_option("--team", a->teams, "team that visitors may select; repeat it for each, at most 8")
+                ->check(teamName())
+                ->allow_extra_args(false)
+                ->type_name("NAME"),
+            hall);
+  command
+      ->add_option("--results", a->results,
+                   "keeps the results of the day in this file, so that another console continues the list")
+      ->check(fileName())
+      ->type_name("FILE");
   addListenerOptions(*command, a->listener);
-  for (const char* name : {"--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"}) {
+  for (const char* name :
+       {"--hall", "--team", "--results", "--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"}) {
     joystick->excludes(command->get_option(name));
   }
   addConnectionOptions(*command, a->connection);

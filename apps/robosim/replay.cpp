@@ -48,7 +48,8 @@ void addReplay(CLI::App& program) {
   command
       ->add_option(
           "RAWLOG", a->rawlog,
-          "a recording of RoboSim or another program: an MRPT rawlog, or a bag of ROS 2 (.mcap, .db3 or its folder)")
+          "a recording of RoboSim or another program: an MRPT rawlog, a bag of ROS 2 (.mcap, .db3 or its folder), or a "
+          "log of CARMEN (.log, .clf)")
       ->transform(inputFile(kRecordingKinds))
       ->type_name("FILE")
       ->required();
@@ -128,6 +129,7 @@ void addReplay(CLI::App& program) {
       ->excludes(controller)
       ->excludes(truth)
       ->excludes(output);
+  index->excludes(addReadingThreads(*command, a->threads));
   setGroup(*command, kSelectionGroup, {"--robot", "--sensor", "--from", "--to"});
   setGroup(*command, "Output", {"--index", "--print", "--csv", "--speed", "--ground-truth", "--output", "--json"});
   setGroup(*command, "Repetition", {"--controller", "--tolerance", "--check", "--observer"});

@@ -4,48 +4,50 @@
 #include <string>
 
 #include "base/error_list.h"
+#include "base/loaded_function.h"
 #include "distributed/ranks/launcher.h"
-#include "robosim/loaded_function.h"
 #include "robosim/plugin_options.h"
 #include "robosim/program.h"
 #include "robosim/program_ranks.h"
 #include "robosim/subcommands.h"
-#include "run/outputs/standard_parts.h"
+#include "run/loaded_parts.h"
 
 namespace robosim {
 namespace {
 
 using AddSubcommands = void (*)(CLI::App& program);
 
-void addRunSubcommands(CLI::App& program) {
-  for (const auto add : {addRun, addReplay, addCheck, addExport, addConvert, addFit, addGenerate, addControllers,
-                         addSensors, addObservers, addBench}) {
+void addMainSubcommands(CLI::App& program) {
+  for (const auto add : {addRun, addCheck, addConvert, addGenerate, addControllers, addSensors, addObservers}) {
     add(program);
   }
 }
 
-AddSubcommands netSubcommands() {
-  return loadedFunction<AddSubcommands>("librobosim-serving.so." ROBOSIM_SOVERSION, "robosimAddNetSubcommands");
-}
-
-AddSubcommands viewSubcommands() {
-  return loadedFunction<AddSubcommands>("librobosim-viewing.so." ROBOSIM_SOVERSION, "robosimAddViewSubcommands");
+/// The subcommands in a library. Those of a network and of windows include `run`, with further options.
+AddSubcommands subcommandsIn(SubcommandLibrary library) {
+  switch (library) {
+    case SubcommandLibrary::program:
+      return programFunction<AddSubcommands>("robosimAddProgramSubcommands");
+    case SubcommandLibrary::serving:
+      return loadedFunction<AddSubcommands>("librobosim-serving.so." ROBOSIM_SOVERSION, "robosimAddNetSubcommands");
+    case SubcommandLibrary::viewing:
+      return loadedFunction<AddSubcommands>("librobosim-viewing.so." ROBOSIM_SOVERSION, "robosimAddViewSubcommands");
+    default:
+      return addMainSubcommands;
+  }
 }
 
 /// For the error that an unknown option is one of another subcommand.
 void addAllSubcommands(CLI::App& program) {
-  addRunSubcommands(program);
-  netSubcommands()(program);
-  viewSubcommands()(program);
+  for (const auto library :
+       {SubcommandLibrary::main, SubcommandLibrary::program, SubcommandLibrary::serving, SubcommandLibrary::viewing}) {
+    subcommandsIn(library)(program);
+  }
 }
 
 AddSubcommands subcommandsFor(int argc, char** argv) {
   const Subcommand* subcommand = argc > 1 ? subcommandNamed(argv[1]) : nullptr;
-  if (!subcommand) return addNames;
-  const std::string_view part = partFor(*subcommand, argc, argv);
-  if (part == "robosim-net") return netSubcommands();
-  if (part == "robosim-view") return viewSubcommands();
-  return addRunSubcommands;
+  return subcommand ? subcommandsIn(libraryFor(*subcommand, argc, argv)) : addNames;
 }
 
 }  // namespace
@@ -53,7 +55,7 @@ AddSubcommands subcommandsFor(int argc, char** argv) {
 int robosimMain(int argc, char** argv, const Registry& registry) {
   try {
     addToProgram(registry);
-    useStandardParts();
+    useLoadedParts();
   } catch (const std::exception& error) {
     std::cerr << "robosim: " << error.what() << '\n';
     return kBadInput;

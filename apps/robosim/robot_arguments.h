@@ -35,7 +35,8 @@ struct RobotArguments {
   Ros2Network ros2_network;
   std::string robot_type;  ///< of a real robot; empty: what a robot that speaks ARCOS reports
   std::string arcos_log;
-  std::string laser;  ///< serial device of an LMS200; empty: none
+  std::string laser;                  ///< serial device of an LMS200; empty: none
+  bool has_no_laser_request = false;  ///< a simulator of --arcos is not asked for scans
   std::string record;
 };
 

@@ -5,13 +5,14 @@
 
 namespace robosim {
 
-std::optional<Ros2Options> ros2Options(const Ros2Arguments& arguments, bool has_tokens,
+std::optional<Ros2Options> ros2Options(const Ros2Arguments& arguments, RosDistribution distribution, bool has_tokens,
                                        const std::function<void(const std::string&)>& log) {
   if (!arguments.is_on) return std::nullopt;
   Ros2Options options;
   options.dds = ddsOptions(arguments.network, log);
   options.name_space = ros2Namespace(arguments.name_space);
-  options.frames = arguments.trees == "robot" ? FrameNames::plain : FrameNames::prefixed;
+  options.form.frames = arguments.trees == "robot" ? FrameNames::plain : FrameNames::prefixed;
+  options.form.distribution = distribution;
   options.join = joinDds;
   if (!options.dds.isLocal() && !arguments.is_unprotected) {
     throw ConfigError(std::string(options.dds.interface.empty() ? "--ros2-peer" : "--ros2-interface") +

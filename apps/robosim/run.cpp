@@ -14,22 +14,21 @@
 
 #include "base/interrupt.h"
 #include "base/log.h"
-#include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/seconds.h"
 #include "base/text_table.h"
 #include "distributed/distributed_run.h"
 #include "distributed/ranks/agreement.h"
 #include "recording/recording_error.h"
-#include "replay/run_tables.h"
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/run_arguments.h"
 #include "robosim/run_command.h"
+#include "robosim/run_files.h"
 #include "robosim/subcommands.h"
+#include "run/loaded_parts.h"
 #include "run/local_run.h"
 #include "run/output_files.h"
-#include "run/outputs/run_outputs.h"
 
 namespace robosim {
 namespace {
@@ -38,20 +37,6 @@ using Clock = std::chrono::steady_clock;
 
 const std::map<std::string, RankExchange> kExchanges{
     {"auto", RankExchange::automatic}, {"near", RankExchange::near}, {"all", RankExchange::all}};
-
-struct LocalRunArguments : RunArguments {
-  std::string csv, npz;              ///< files; empty for none
-  std::uint64_t balance_steps = 50;  ///< DistributionOptions::balance_steps
-  std::string exchange = "auto";     ///< name in kExchanges
-
-  std::vector<RecordingOutput> tables() const {
-    std::vector<RecordingOutput> tables;
-    if (!csv.empty()) tables.push_back({csv, RecordingFormat::csv});
-    if (!npz.empty()) tables.push_back({npz, RecordingFormat::npz});
-    return tables;
-  }
-  bool isRecorded() const { return !record.empty() || !csv.empty() || !npz.empty(); }
-};
 
 /// @param limit_s simulated time at which the run ends, if not before
 std::string progressText(const LocalRun& run, double limit_s, double wall_s) {
@@ -93,41 +78,39 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
   return endedByItself(run);
 }
 
-/// The output files of a run, and its summary.
-class RunFiles {
+/// The summary of a run that writes no files.
+class SummaryOnly final : public RunFiles {
  public:
-  /// @param source of the world; nullopt if nothing is recorded
-  RunFiles(const LocalRunArguments& arguments, const LocalRun& run, const std::optional<WorldSource>& source)
-      : arguments_(arguments),
-        run_(run),
-        note_(arguments.isRecorded() ? makeNote(*source, run, arguments.run) : RunNote()),
-        outputs_(arguments, run.environment(), note_),
-        tables_(arguments.tables(), arguments.world, run.environment(), note_) {}
+  SummaryOnly(const RunArguments& arguments, const LocalRun& run) : arguments_(arguments), run_(run) {}
 
-  void observe() {
-    outputs_.observe(run_.environment());
-    tables_.observe(run_.environment());
-  }
-  /// Completes the files of a failed run.
-  void keep() {
-    outputs_.keep(run_.environment());
-    tables_.keep();
-  }
-  void finish(double wall_s, EndedBy ended_by) {
-    outputs_.finish(run_, wall_s, ended_by);
-    tables_.finish();
-    for (const auto& table : tables_.tables()) {
-      if (!arguments_.json) std::cout << "table     " << printableText(table.file.string()) << std::endl;
-    }
+  void observe() override {}
+  void keep() override {}
+  void finish(double wall_s, EndedBy ended_by) override {
+    RunSummary summary = summaryOf(arguments_, run_, ended_by);
+    summary.wall_s = wall_s;
+    printSummary(summary, arguments_);
+    std::cout.flush();
   }
 
  private:
-  const LocalRunArguments& arguments_;
+  const RunArguments& arguments_;
   const LocalRun& run_;
-  RunNote note_;
-  RunOutputs outputs_;
-  RunTables tables_;
 };
+
+using MakeRunFiles = decltype(&robosimMakeRunFiles);
+
+/// To be called before the world is built, because it throws if this installation cannot write files.
+/// @returns null if the run writes none
+MakeRunFiles loadRunFiles(const LocalRunArguments& arguments) {
+  return arguments.writesFiles() ? programFunction<MakeRunFiles>("robosimMakeRunFiles") : nullptr;
+}
+
+/// @param make by loadRunFiles() @param source of the world; nullopt if nothing is recorded
+std::unique_ptr<RunFiles> makeRunFiles(MakeRunFiles make, const LocalRunArguments& arguments, const LocalRun& run,
+                                       const std::optional<WorldSource>& source) {
+  if (!make) return std::make_unique<SummaryOnly>(arguments, run);
+  return std::unique_ptr<RunFiles>(make(arguments, run, source ? &*source : nullptr));
+}
 
 void checkArguments(const LocalRunArguments& arguments) {
   checkRunArguments(arguments);
@@ -151,16 +134,18 @@ constexpr const char* kInterrupted = "interrupted; all outputs cover the steps b
 void runWorld(const LocalRunArguments& arguments, const RunWindow& window, double window_speed) {
   std::optional<Interrupt> interrupt(std::in_place);
   checkArguments(arguments);
+  const MakeRunFiles make_files = loadRunFiles(arguments);
   std::optional<WorldSource> source;
   LoadedWorld world = loadedWorld(arguments, source);
   RunOptions options = arguments.run;
-  // Rendering takes most of the time of a run with cameras.
-  options.takes_pictures =
-      arguments.isRecorded() || window || needPictures(world.fleet, options.controller, options.observers);
+  // Rendering takes most of the time of a run with cameras. Clients of a served run may request pictures at any time.
+  const bool are_all_read = arguments.isRecorded() || readPictures(options.observers);
+  options.takes_pictures = are_all_read || window || needPictures(world.fleet, options.controller);
+  options.pictures_on_request = !are_all_read;
   options.check_added = [fault = whyNoAdditions(arguments)](const FleetRobot&) { return fault; };
   LocalRun run(std::move(world), options);
-  RunFiles files(arguments, run, source);
-  const ObserveStep observe = [&] { files.observe(); };
+  const auto files = makeRunFiles(make_files, arguments, run, source);
+  const ObserveStep observe = [&] { files->observe(); };
   const auto start = Clock::now();
   EndedBy ended_by = EndedBy::all_halted;
   try {
@@ -173,10 +158,10 @@ void runWorld(const LocalRunArguments& arguments, const RunWindow& window, doubl
   } catch (const RecordingError&) {
     throw;
   } catch (...) {
-    files.keep();
+    files->keep();
     throw;
   }
-  files.finish(secondsSince(start), ended_by);
+  files->finish(secondsSince(start), ended_by);
   if (ended_by == EndedBy::interrupt) throw Interrupted(kInterrupted);
 }
 
@@ -203,19 +188,23 @@ void runOnRanks(const LocalRunArguments& arguments, RankGroup& group) {
   const Interrupt interrupt;
   std::optional<WorldSource> source;
   LoadedWorld world;
+  MakeRunFiles make_files = nullptr;
   agree(group, [&] {
     checkArguments(arguments);
+    if (group.isFirst()) make_files = loadRunFiles(arguments);
     world = loadedWorld(arguments, source);
   });
-  DistributedRun run(group, std::move(world), arguments.run,
+  RunOptions options = arguments.run;
+  options.takes_pictures = arguments.isRecorded() || needPictures(world.fleet, options.controller, options.observers);
+  DistributedRun run(group, std::move(world), options,
                      {.first_needs_readings = arguments.isRecorded() || !arguments.run.observers.empty(),
                       .balance_steps = arguments.balance_steps,
                       .first_needs_poses = !arguments.picture.empty(),
                       .exchange = kExchanges.at(arguments.exchange)});
   if (group.isFirst()) logDebug("run", run.exchangeText());
-  std::optional<RunFiles> files;
+  std::unique_ptr<RunFiles> files;
   agree(group, [&] {
-    if (group.isFirst()) files.emplace(arguments, run.run(), source);
+    if (group.isFirst()) files = makeRunFiles(make_files, arguments, run.run(), source);
   });
   // A failure is shared in the next step.
   std::exception_ptr failure;
@@ -312,6 +301,13 @@ void addRunCommand(CLI::App& program, const RunWindow& window, const RunServer& 
       ->type_name("PORT")
       ->excludes(view)
       ->group(kRunGroup);
+  command
+      ->add_option(std::string(kWebOption), live->web,
+                   "show the run on a page in browsers of this machine, in real time unless --speed is given; as "
+                   "'robosim serve --web' (doc/run_page.md); usually 8081")
+      ->type_name("PORT")
+      ->excludes(view)
+      ->group(kRunGroup);
   addRos2Options(*command, live->ros2, kRunGroup, false);
   command->get_option(std::string(kRos2Option))->excludes(view);
   command->footer(controllersHelp);
@@ -319,7 +315,8 @@ void addRunCommand(CLI::App& program, const RunWindow& window, const RunServer& 
     const double speed = command->count("--speed") > 0 ? speedNumber(arguments->speed) : 1;
     if (!live->isNone()) {
       if (!server) {
-        throw ConfigError("--foxglove and --ros2 are features of the command 'robosim run', which starts robosim-net");
+        throw ConfigError(
+            "--foxglove, --ros2 and --web are features of the command 'robosim run', which starts robosim-net");
       }
       const RunWindow serve = [&](auto& run, const auto& of_run, double run_speed, const auto& observe) {
         return server(run, of_run, *live, run_speed, observe);

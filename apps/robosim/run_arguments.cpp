@@ -1,13 +1,46 @@
 #include "robosim/run_arguments.h"
 
+#include <memory>
+
 #include <CLI/CLI.hpp>
 
+#include "base/file_kind.h"
 #include "base/text_table.h"
 #include "maze/controllers.h"
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
+#include "robosim/figure_arguments.h"
+#include "robosim/subcommands.h"
 
 namespace robosim {
+
+namespace {
+
+/// The layers of the picture, and of the window of a command that has --view.
+void addPictureLayers(CLI::App& command, RunArguments& a) {
+  auto layers = std::make_shared<LayerArguments>();
+  const auto has_window = [&command] {
+    const CLI::Option* const view = command.get_option_no_throw(std::string(kViewOption));
+    return view && view->count() > 0;
+  };
+  for (CLI::Option* const option : layers->addTo(command)) {
+    dependsOn(option, command.get_name() == "run" ? "--picture or --view" : "--picture",
+              [&a, has_window] { return !a.picture.empty() || has_window(); });
+  }
+  command.parse_complete_callback([layers, &a, has_window] {
+    if (has_window()) {
+      std::vector<std::string> drawn = windowLayers();
+      if (!a.picture.empty()) drawn = figureLayers();
+      layers->check("a window", drawn);
+    } else if (!a.picture.empty()) {
+      layers->check("a plan of a run", planLayers());
+    }
+    a.layers = layers->layers();
+    a.only = layers->only();
+  });
+}
+
+}  // namespace
 
 void addRunArguments(CLI::App& command, RunArguments& a) {
   command
@@ -42,6 +75,11 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
           ->capture_default_str()
           ->group(kRecordingGroup);
   dependsOn(images, record);
+  dependsOn(addDistributionOption(command, a.distribution)->group(kRecordingGroup), "--ros2, or --record FILE.mcap",
+            [&command, &a] {
+              const CLI::Option* const ros2 = command.get_option_no_throw("--ros2");
+              return isMcapName(a.record) || (ros2 && ros2->count() > 0);
+            });
   addTime(command, a.time_s, "simulated time limit; the run ends earlier if all robots have halted");
   addStep(command, a.run.environment.period_s);
   addThreads(command, a.run.environment.threads, "number of threads; the run does not depend on it");
@@ -59,6 +97,7 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
       ->type_name("FILE")
       ->check(fileName())
       ->group(kRecordingGroup);
+  addPictureLayers(command, a);
   command.add_flag("--json", a.json, "print the summary as one JSON object")->group(kRecordingGroup);
 }
 

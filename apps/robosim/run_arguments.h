@@ -2,7 +2,7 @@
 #include <string>
 
 #include "robosim/cli11_names.h"
-#include "run/outputs/run_outputs.h"
+#include "run/run_arguments.h"
 
 namespace robosim {
 

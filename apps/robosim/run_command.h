@@ -5,7 +5,7 @@
 #include "robosim/cli11_names.h"
 #include "robosim/ros2_arguments.h"
 #include "run/local_run.h"
-#include "run/outputs/run_outputs.h"
+#include "run/run_arguments.h"
 
 namespace robosim {
 
@@ -21,18 +21,19 @@ using RunWindow =
 /// What of a run is served, and how.
 struct LiveArguments {
   std::string foxglove;  ///< address of --foxglove; empty: none
+  std::string web;       ///< address of --web; empty: none
   Ros2Arguments ros2;
 
-  bool isNone() const { return foxglove.empty() && !ros2.is_on; }
+  bool isNone() const { return foxglove.empty() && web.empty() && !ros2.is_on; }
 };
 
-/// Serves a run to Foxglove or ROS 2, and steps it, until it is over or a signal ends it. As RunWindow.
+/// Serves a run to Foxglove, ROS 2 or browsers, and steps it, until it is over or a signal ends it. As RunWindow.
 using RunServer = std::function<EndedBy(LocalRun& run, const RunArguments& arguments, const LiveArguments& live,
                                         double speed, const ObserveStep& observe)>;
 
 /// Adds the subcommand `run`, unless the program has it.
 /// @param window of --view; null in the executable that has no windows
-/// @param server of --foxglove and --ros2; null in the executable that has no network
+/// @param server of --foxglove, --ros2 and --web; null in the executable that has no network
 void addRunCommand(CLI::App& program, const RunWindow& window, const RunServer& server);
 
 }  // namespace robosim

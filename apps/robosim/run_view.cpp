@@ -111,7 +111,7 @@ EndedBy showRun(LocalRun& run, const RunArguments& arguments, double speed, cons
   const MakePanes make_panes = [](const LoadedWorld& world, AbsentRobots) {
     return std::vector<Pane>{makePane(false, std::nullopt, world.world)};
   };
-  showWindow(view, make_panes, kSize, {});
+  showWindow(view, make_panes, kSize, {}, {}, arguments.layers, arguments.only);
   if (Interrupt::signal() != 0) return EndedBy::interrupt;
   const bool has_ended = run.isOver() || arguments.timeIsUp(run.environment().time());
   return has_ended ? endedByItself(run) : EndedBy::window_closed;

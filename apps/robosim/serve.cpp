@@ -15,10 +15,12 @@
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/connection.h"
+#include "robosim/foxglove_options.h"
 #include "robosim/ros2_options.h"
 #include "robosim/run_arguments.h"
 #include "robosim/serve_arguments.h"
 #include "robosim/subcommands.h"
+#include "robosim/web_options.h"
 #include "server/environment_server.h"
 #include "serving/world_run.h"
 
@@ -157,6 +159,7 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
     throw ConfigError("--step must divide the cycle of ARCOS, 0.1 s, as 0.1, 0.05 and 0.02 do");
   }
   options.has_all = arguments.arcos_all;
+  options.may_load_maps = arguments.arcos_maps;
   if (!arguments.arcos_factory.empty()) {
     const Factory factory = Factory::parse(arguments.arcos_factory);
     options.factory = factory.model;
@@ -170,18 +173,17 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
 
 /// @throws ConfigError for an address that is invalid, or exposed without protection
 std::optional<FoxgloveOptions> foxgloveOptions(const ServeArguments& arguments, const ServerOptions& server) {
-  if (arguments.foxglove.empty()) return std::nullopt;
-  FoxgloveOptions options;
-  options.is_realtime = server.pace == Pace::realtime;
-  options.server.listen = foxgloveAddress(arguments.foxglove);
-  options.server.tls = server.tls;
-  options.server.access = server.access;
-  options.server.origins = arguments.foxglove_origins;
-  options.server.log = server.log;
-  if (!arguments.listener.unprotected) {
-    checkExposure("--foxglove", options.server.listen, server.tls.has_value(), !server.access.isOpen());
-  }
-  return options;
+  if (arguments.foxglove.address.empty()) return std::nullopt;
+  return FoxgloveOptions{
+      foxgloveServer(arguments.foxglove, server.tls, server.access, arguments.listener.unprotected, server.log),
+      server.pace == Pace::realtime};
+}
+
+std::optional<PageOptions> pageOptions(const ServeArguments& arguments, const ServerOptions& server) {
+  if (arguments.web.empty()) return std::nullopt;
+  return PageOptions{
+      livePageServer(arguments.web, server.tls, server.access, arguments.listener.unprotected, server.log),
+      server.pace == Pace::realtime};
 }
 
 }  // namespace
@@ -194,8 +196,8 @@ void serveWorld(const ServeArguments& arguments) {
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   const ServerOptions options = serverOptions(arguments);
   const LiveOptions live{foxgloveOptions(arguments, options),
-                         ros2Options(arguments.ros2, !options.access.isOpen(), options.log), options.access,
-                         options.log};
+                         ros2Options(arguments.ros2, of_run.distribution, !options.access.isOpen(), options.log),
+                         pageOptions(arguments, options), options.access, options.log};
   WorldRun run({of_run, arguments.wait_for_robots, options.pace == Pace::realtime, arcosOptions(arguments), live});
   EnvironmentServer server(options, run.runInfo());
   logPorts(options, server.ports());
@@ -285,20 +287,14 @@ void addServe(CLI::App& program) {
            {"--wait-for-robots", "--listen", "--pace", "--step-deadline", "--on-lost-robot", "--check-results",
             "--paused", "--await-next-run", "--health", "--reflection"});
   addArcosOptions(*command, *a);
-  const CLI::Option* foxglove =
-      command
-          ->add_option(
-              "--foxglove", a->foxglove,
-              "serve the topics of ROS 2 to Foxglove and Lichtblick, which may also drive robots, and pause the "
-              "run (doc/ros2.md); usually 8765. Uses --tls-cert and --tokens")
-          ->type_name("[HOST:]PORT");
-  dependsOn(command
-                ->add_option("--foxglove-origin", a->foxglove_origins,
-                             "allow pages of another site, such as http://localhost:8080 of a Lichtblick of your own")
-                ->allow_extra_args(false)
-                ->type_name("ORIGIN"),
-            foxglove);
-  setGroup(*command, kClientsGroup, {"--foxglove", "--foxglove-origin"});
+  addFoxgloveOptions(*command, a->foxglove,
+                     "serve the topics of ROS 2 to Foxglove and Lichtblick, which may also drive robots, and pause the "
+                     "run (doc/ros2.md); usually 8765. Uses --tls-cert and --tokens",
+                     kClientsGroup);
+  addWebOption(*command, a->web,
+               "show the run live on a page in browsers, to up to 256 viewers, with its paths so far; supervisors "
+               "drag robots and objects there (doc/run_page.md); usually 8081. Uses --tls-cert and --tokens",
+               kClientsGroup);
   addRos2Options(*command, a->ros2, kRos2Group, true);
   addListenerOptions(*command, a->listener);
   command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });

@@ -5,6 +5,7 @@
 #include "net/listen.h"
 #include "net/open_port.h"
 #include "robosim/connection.h"
+#include "robosim/foxglove_options.h"
 #include "robosim/ros2_arguments.h"
 #include "run/outputs/run_outputs.h"
 
@@ -30,9 +31,10 @@ struct ServeArguments {
   std::string arcos;  ///< address for ARCOS programs; empty: none
   bool arcos_unprotected = false;
   bool arcos_all = false;     ///< also robots with a controller
+  bool arcos_maps = false;    ///< ARCOS programs may load other maps
   std::string arcos_factory;  ///< "MODEL" or "MODEL:NUMBER"; empty: a port for each robot
-  std::string foxglove;       ///< address for Foxglove; empty: none
-  std::vector<std::string> foxglove_origins;
+  FoxgloveArguments foxglove;
+  std::string web;  ///< address of --web; empty: none
   Ros2Arguments ros2;
 };
 

@@ -14,11 +14,23 @@ const Subcommand* subcommandNamed(std::string_view name) {
   return found == kSubcommands.end() ? nullptr : &*found;
 }
 
-const char* partFor(const Subcommand& subcommand, int argc, char** argv) {
-  if (subcommand.name != std::string_view("run")) return subcommand.part;
-  if (hasOption(kViewOption, argc, argv)) return subcommandNamed("view")->part;
-  const bool is_served = hasOption(kFoxgloveOption, argc, argv) || hasOption(kRos2Option, argc, argv);
-  return is_served ? subcommandNamed("serve")->part : subcommand.part;
+SubcommandLibrary libraryFor(const Subcommand& subcommand, int argc, char** argv) {
+  if (subcommand.name != std::string_view("run")) return subcommand.library;
+  if (hasOption(kViewOption, argc, argv)) return SubcommandLibrary::viewing;
+  const bool is_served =
+      hasOption(kFoxgloveOption, argc, argv) || hasOption(kRos2Option, argc, argv) || hasOption(kWebOption, argc, argv);
+  return is_served ? SubcommandLibrary::serving : subcommand.library;
+}
+
+const char* partFor(SubcommandLibrary library) {
+  switch (library) {
+    case SubcommandLibrary::serving:
+      return "robosim-net";
+    case SubcommandLibrary::viewing:
+      return "robosim-view";
+    default:
+      return "robosim-run";
+  }
 }
 
 bool hasOption(std::string_view option, int argc, char** argv) {

@@ -20,52 +20,65 @@ struct Exit {
   ExitCode code;
 };
 
+/// The library that a subcommand is in.
+enum class SubcommandLibrary {
+  main,     ///< needs no library but the engine
+  program,  ///< needs MRPT's observations and maps, OpenCV or Cairo
+  serving,  ///< also a network
+  viewing,  ///< also windows
+};
+
 /// A subcommand of `robosim`.
 struct Subcommand {
   const char* name;
   const char* help;
-  const char* part;  ///< the executable for it: robosim-run, robosim-net, robosim-view
+  SubcommandLibrary library;
 };
 
-/// All subcommands, in the order of the help text. They are divided among executables by the libraries that they need,
-/// so that each starts fast: robosim-run needs neither gRPC nor a windowing system.
+/// All subcommands, in the order of the help text. They are divided among libraries by what they need, so that each
+/// starts fast.
 inline constexpr std::array kSubcommands{
-    Subcommand{"run", "Run a world in this process", "robosim-run"},
+    Subcommand{"run", "Run a world in this process", SubcommandLibrary::main},
     Subcommand{"serve", "Serve a world to robots, viewers, geometry workers and control panels in other processes",
-               "robosim-net"},
-    Subcommand{"arcos", "Serve a map to programs of ARIA, as MobileSim does", "robosim-net"},
-    Subcommand{"robot", "Run the controllers of robots of a served world", "robosim-net"},
-    Subcommand{"remote", "Drive one robot of a team, from a web page or with a joystick", "robosim-net"},
+               SubcommandLibrary::serving},
+    Subcommand{"arcos", "Serve a map to programs of ARIA, as MobileSim does", SubcommandLibrary::serving},
+    Subcommand{"robot", "Run the controllers of robots of a served world", SubcommandLibrary::serving},
+    Subcommand{"remote", "Drive one robot of a team, from a web page or with a joystick", SubcommandLibrary::serving},
     Subcommand{"geometry",
                "Compute readings of sonars, lasers and infrared sensors for an environment in another process",
-               "robosim-net"},
-    Subcommand{"control", "Control a served run", "robosim-net"},
-    Subcommand{"view", "View a running environment, a recording, a world, or a map", "robosim-view"},
+               SubcommandLibrary::serving},
+    Subcommand{"control", "Control a served run", SubcommandLibrary::serving},
+    Subcommand{"view", "View a running environment, a recording, a world, or a map", SubcommandLibrary::viewing},
     Subcommand{"replay", "Summarise a recording, print it, extract a part, repeat its run, or feed it to a controller",
-               "robosim-run"},
-    Subcommand{"check", "Validate a file and summarise it, or list all errors", "robosim-run"},
-    Subcommand{"export", "Export a world as a map or plan, or a recording as tables or a figure", "robosim-run"},
-    Subcommand{"convert", "Convert a world of Stage to files of RoboSim", "robosim-run"},
-    Subcommand{"fit", "Estimate the errors of a laser scanner from a recording of a real robot", "robosim-run"},
-    Subcommand{"generate", "Generate a random world: maze, cave, office, open", "robosim-run"},
-    Subcommand{"controllers", "List the controllers with their parameters", "robosim-run"},
-    Subcommand{"sensors", "List the kinds of sensors with their settings", "robosim-run"},
-    Subcommand{"observers", "List the observers of runs with their parameters", "robosim-run"},
+               SubcommandLibrary::program},
+    Subcommand{"check", "Validate a file and summarise it, or list all errors", SubcommandLibrary::main},
+    Subcommand{"export", "Export a world as a map or plan, or a recording as tables or a figure",
+               SubcommandLibrary::program},
+    Subcommand{"convert", "Convert a world of Stage to files of RoboSim", SubcommandLibrary::main},
+    Subcommand{"fit", "Estimate the errors of a laser scanner from a recording of a real robot",
+               SubcommandLibrary::program},
+    Subcommand{"generate", "Generate a random world: maze, cave, office, open", SubcommandLibrary::main},
+    Subcommand{"controllers", "List the controllers with their parameters", SubcommandLibrary::main},
+    Subcommand{"sensors", "List the kinds of sensors with their settings", SubcommandLibrary::main},
+    Subcommand{"observers", "List the observers of runs with their parameters", SubcommandLibrary::main},
     Subcommand{"bench", "Tabulate success rates and metrics of many runs; speed is measured by robosim_bench",
-               "robosim-run"},
+               SubcommandLibrary::program},
 };
 
-/// `robosim run` with this option is in the executable of `robosim view`.
+/// `robosim run` with this option is in the library of `robosim view`.
 constexpr std::string_view kViewOption = "--view";
-/// With one of these it is in the executable of `robosim serve`.
+/// With one of these it is in that of `robosim serve`.
 constexpr std::string_view kFoxgloveOption = "--foxglove";
 constexpr std::string_view kRos2Option = "--ros2";
+constexpr std::string_view kWebOption = "--web";
 
 /// The entry of kSubcommands with this name; null when there is none.
 const Subcommand* subcommandNamed(std::string_view name);
 
-/// Subcommand::part for the arguments of a program.
-const char* partFor(const Subcommand& subcommand, int argc, char** argv);
+/// The library for the arguments of a program: that of the subcommand, or for some options of `run` another.
+SubcommandLibrary libraryFor(const Subcommand& subcommand, int argc, char** argv);
+/// The executable that is linked to a library, or loads it: robosim-run, robosim-net, robosim-view.
+const char* partFor(SubcommandLibrary library);
 
 /// Whether an option is among the arguments of a subcommand, "--option" or "--option=value".
 bool hasOption(std::string_view option, int argc, char** argv);
@@ -83,7 +96,7 @@ CLI::App* addSubcommand(CLI::App& program, std::string_view name);
 ///@{
 void addRun(CLI::App& program);
 void addRunWithWindow(CLI::App& program);  ///< the same, for `robosim run --view`
-void addRunWithServer(CLI::App& program);  ///< the same, for `robosim run` with --foxglove or --ros2
+void addRunWithServer(CLI::App& program);  ///< the same, for `robosim run` with --foxglove, --ros2 or --web
 void addServe(CLI::App& program);
 void addArcos(CLI::App& program);
 void addRobot(CLI::App& program);

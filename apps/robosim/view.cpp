@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -6,6 +7,7 @@
 #include "base/data_folders.h"
 #include "base/error_list.h"
 #include "base/file_kind.h"
+#include "base/log.h"
 #include "base/text_table.h"
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"
@@ -13,11 +15,16 @@
 #include "robosim/command_line.h"
 #include "robosim/connection.h"
 #include "robosim/figure_arguments.h"
+#include "robosim/foxglove_options.h"
 #include "robosim/subcommands.h"
+#include "robosim/web_options.h"
+#include "robots/robot_selection.h"
 #include "run/output_files.h"
 #include "viewing/video_file.h"
+#include "viewing/view_foxglove.h"
 #include "viewing/view_keys.h"
 #include "viewing/view_outputs.h"
+#include "viewing/view_page.h"
 #include "viewing/view_source.h"
 #include "world/world_file.h"
 
@@ -27,6 +34,9 @@ namespace {
 struct ViewArguments {
   std::string source;
   ConnectionArguments connection;
+  FoxgloveArguments foxglove;
+  std::string web;
+  ListenerArguments listener;
   WorldChanges changes;
   std::uint64_t seed = 1;
   bool is_2d = false, is_3d = false;
@@ -46,13 +56,7 @@ std::optional<std::size_t> robotNamed(const std::string& name, const Fleet& flee
     if (fleet.robots[i].info.name == name) return i;
   }
   if (absent == AbsentRobots::not_followed) return std::nullopt;
-  std::string names;
-  for (const auto& robot : fleet.robots) {
-    if (names.size() > 200) break;
-    names += (names.empty() ? "" : ", ") + robot.info.name;
-  }
-  if (names.empty()) names = "none";
-  throw ConfigError("there is no robot " + name + "; there " + (fleet.robots.size() <= 1 ? "is " : "are ") + names);
+  throw ConfigError(describeUnknownRobot(name, fleet));
 }
 
 /// "2d", "3d@Pioneer1"
@@ -129,6 +133,21 @@ void checkTimes(const ViewArguments& a, const ViewSource& source) {
   refuse(*times.from_s > *duration_s, from, "the recording ends at " + brief(*duration_s) + " s");
 }
 
+/// @throws ConfigError
+FoxgloveOptions foxgloveOptions(const ViewArguments& a) {
+  const auto log = [](const std::string& line) { logInfo("view", line); };
+  return {foxgloveServer(a.foxglove, a.listener.identity(), a.listener.access(log), a.listener.unprotected, log)};
+}
+
+bool isRecording(const std::filesystem::path& file) {
+  return std::find(kRecordingKinds.begin(), kRecordingKinds.end(), kindOfFile(file)) != kRecordingKinds.end();
+}
+
+LivePageServer::Options pageOptions(const ViewArguments& a) {
+  const auto log = [](const std::string& line) { logInfo("view", line); };
+  return livePageServer(a.web, a.listener.identity(), a.listener.access(log), a.listener.unprotected, log);
+}
+
 void view(ViewArguments a) {
   if (const auto file = findDataFile(a.source)) {
     a.source = file->string();
@@ -139,24 +158,45 @@ void view(ViewArguments a) {
   }
   const Size size = sizeFrom(a.size);
   a.figure.check(isFigure(a.offscreen), a.offscreen);
+  if (isFigure(a.offscreen)) {
+    a.layers.check("a figure of a step", figureLayers());
+  } else {
+    a.layers.check(a.offscreen.empty() ? "a window" : "a picture or video", windowLayers());
+  }
   if (isFigure(a.offscreen)) checkFigure(a);
   if (!a.offscreen.empty()) {
     checkOffscreenFile(a.offscreen);
     refuseSameFile({{"SOURCE", a.source}, {"--offscreen", a.offscreen}});
   }
+  if (!a.web.empty() && findDataFile(a.source) && isRecording(a.source)) {
+    refuseChanges(a.source, a.changes, "a recording");
+    if (!serveRecordingPage(a.source, pageOptions(a))) throw Exit{kBadInput};
+    return;
+  }
   const auto connect_options = [connection = a.connection](const std::string& address) mutable {
     connection.environment = address;
     return connection.awaitServer(connection.connectOptions(), "view");
   };
-  const auto source = openView(a.source, connect_options, a.changes, a.seed);
+  const bool is_served = !a.foxglove.address.empty() || !a.web.empty();
+  std::optional<FoxgloveOptions> foxglove;
+  if (!a.foxglove.address.empty()) foxglove = foxgloveOptions(a);
+  std::optional<LivePageServer::Options> page;
+  if (!a.web.empty()) page = pageOptions(a);
+  const auto source = openView(
+      a.source, connect_options, a.changes, a.seed, is_served ? Pictures::keep : Pictures::leave_out,
+      a.offscreen.empty() && !is_served && !a.times.from_s && !a.times.to_s ? Opening::at_once : Opening::whole);
   refuseOverwriting(source->inputs(), {a.offscreen});
   checkTimes(a, *source);
+  if (page) return serveViewPage(*source, *page);
+  if (foxglove) return serveView(*source, *foxglove, a.times);
   const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
-  if (a.offscreen.empty()) return showWindow(*source, make_panes, size, a.times, a.look, a.layers.layers());
+  if (a.offscreen.empty()) {
+    return showWindow(*source, make_panes, size, a.times, a.look, a.layers.layers(), a.layers.only());
+  }
   if (isFigure(a.offscreen)) {
-    writeViewFigure(*source, a.times, a.offscreen, a.figure.page(kColumnPage), a.layers.layers());
+    writeViewFigure(*source, a.times, a.offscreen, a.figure.page(kColumnPage), a.layers.layers(), a.layers.only());
   } else {
-    writeOffscreen(*source, make_panes, size, a.times, a.offscreen, a.look, a.layers.layers());
+    writeOffscreen(*source, make_panes, size, a.times, a.offscreen, a.look, a.layers.layers(), a.layers.only());
   }
   if (source->isDamaged()) throw Exit{kBadInput};
 }
@@ -169,7 +209,7 @@ void addView(CLI::App& program) {
   command
       ->add_option("SOURCE", a->source,
                    "address of a running environment (HOST:PORT), a world file, a map, or a recording of any program "
-                   "(rawlog, or bag of ROS 2); shipped "
+                   "(rawlog, bag of ROS 2, or log of CARMEN); shipped "
                    "files also by name alone: maze_20x20")
       ->type_name("ADDRESS|FILE")
       ->required();
@@ -198,7 +238,7 @@ void addView(CLI::App& program) {
       ->capture_default_str()
       ->each([a](const std::string&) { a->has_scale = true; });
   a->figure.addTo(*command, kColumnPage);
-  a->layers.addTo(*command, "layers to leave out; in a window, until they are switched on");
+  a->layers.addTo(*command);
   command->add_flag("--antialias", a->look.antialias,
                     "smooth edges in 3D and in the camera picture; rendering takes about 2.5 times as long");
   command->add_flag("--camera", a->look.camera_inset,
@@ -221,8 +261,31 @@ void addView(CLI::App& program) {
                   ->capture_default_str();
   dependsOn(fps, "--offscreen FILE.mp4 or FILE.webm", [a] { return isVideo(a->offscreen); });
   setGroup(*command, "Views",
-           {"--2d", "--3d", "--follow", "--view", "--hide", "--size", "--scale", "--antialias", "--camera"});
+           {"--2d", "--3d", "--follow", "--view", "--hide", "--show", "--only", "--size", "--scale", "--antialias",
+            "--camera"});
   setGroup(*command, kFigureGroup, {"--offscreen", "--from", "--to", "--for", "--speed", "--fps"});
+  CLI::Option* const foxglove = addFoxgloveOptions(
+      *command, a->foxglove,
+      "no window: serve the topics of ROS 2 to Foxglove and Lichtblick, which play a recording and pause a run "
+      "(doc/ros2.md); usually 8765. Uses --tls-cert and --tokens",
+      "Foxglove");
+  CLI::Option* const web =
+      addWebOption(*command, a->web,
+                   "no window: show a recording, a world or a running environment on a page in browsers, to up to 256 "
+                   "viewers (doc/run_page.md); usually 8081. Uses --tls-cert and --tokens",
+                   "Browsers");
+  web->excludes(foxglove);
+  addListenerOptions(*command, a->listener);
+  for (const char* option : {"--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"}) {
+    dependsOn(command->get_option(option), {foxglove, web});
+  }
+  for (const char* option : {"--2d", "--3d", "--follow", "--view", "--hide", "--show", "--only", "--size", "--scale",
+                             "--antialias", "--camera", "--offscreen"}) {
+    command->get_option(option)->excludes(foxglove)->excludes(web);
+  }
+  for (const char* option : {"--from", "--to", "--for", "--speed"}) {
+    command->get_option(option)->excludes(web);
+  }
   addSecurityOptions(*command, a->connection);
   addConnectTimeout(*command, a->connection);
   for (const char* option : {"--tls-ca", "--tls", "--token-file", "--send-token-unencrypted", "--connect-timeout"}) {
@@ -230,11 +293,10 @@ void addView(CLI::App& program) {
   }
   dependsOn(command->get_option("--seed"), "a world or a map as SOURCE", [a] {
     const auto file = findDataFile(a->source);
-    return file &&
-           std::find(kRecordingKinds.begin(), kRecordingKinds.end(), kindOfFile(*file)) == kRecordingKinds.end();
+    return file && !isRecording(*file);
   });
   Rows keys;
-  for (const auto& [key, meaning] : viewKeys()) keys.push_back({"  " + std::string(key), meaning});
+  for (const auto& [key, meaning] : viewKeys()) keys.push_back({"  " + key, meaning});
   command->footer("In the window:\n" + listing(keys) +
                   "Try:  robosim view worlds/opho2_1.xml --offscreen world.png\n"
                   "      robosim view run.rawlog --offscreen figure.pdf --width-mm 88 --font-pt 8");

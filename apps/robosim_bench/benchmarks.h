@@ -12,6 +12,7 @@ void addLearnBenchmark(CLI::App& program);
 void addMapsBenchmark(CLI::App& program);
 void addNetworkBenchmark(CLI::App& program);
 void addOdometryBenchmark(CLI::App& program);
+void addRaycastBenchmark(CLI::App& program);
 void addRecordingBenchmark(CLI::App& program);
 void addSpeedBenchmark(CLI::App& program);
 void addViewBenchmark(CLI::App& program);

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   robosim::addSpeedBenchmark(program);
   robosim::addNetworkBenchmark(program);
   robosim::addCameraBenchmark(program);
+  robosim::addRaycastBenchmark(program);
   robosim::addViewBenchmark(program);
   robosim::addMapsBenchmark(program);
   robosim::addLearnBenchmark(program);

@@ -16,7 +16,7 @@ namespace {
 /// Repeats a run.
 class Repeated {
  public:
-  Repeated(const RecordedRun& run, std::filesystem::path recording) : run_(run), recording_(std::move(recording)) {
+  Repeated(const RunToRecord& run, std::filesystem::path recording) : run_(run), recording_(std::move(recording)) {
     options_.controller = run.controller;
     source_.seed = options_.environment.seed;
   }
@@ -54,7 +54,7 @@ class Repeated {
     return time_s_ = environment.time().seconds();
   }
 
-  const RecordedRun run_;
+  const RunToRecord run_;
   const std::filesystem::path recording_;
   RunOptions options_;
   WorldSource source_ = readWorldSource(run_.world);
@@ -65,9 +65,9 @@ class Repeated {
 
 }  // namespace
 
-RecordedRun smallRun() { return {.world = shareFolder() / "worlds" / "opho2_1.xml", .controller = ""}; }
+RunToRecord smallRun() { return {.world = shareFolder() / "worlds" / "opho2_1.xml", .controller = ""}; }
 
-RecordingFigures benchRecording(const RecordedRun& run, double min_s) {
+RecordingFigures benchRecording(const RunToRecord& run, double min_s) {
   const auto folder = TemporaryDirectory::inMemory();
   return runInChildProcess([&]() -> nlohmann::json {
            Repeated plain(run, {});

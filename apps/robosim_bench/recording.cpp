@@ -15,7 +15,7 @@ namespace robosim {
 namespace {
 
 struct RecordingArguments {
-  RecordedRun run = smallRun();
+  RunToRecord run = smallRun();
   double min_s = 1;
   bool json = false;
 };

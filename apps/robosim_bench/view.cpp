@@ -20,13 +20,13 @@ struct Kind {
   const char* name;
   const char* help;
   bool is_2d, is_3d;
-  TopViewLayers layers = {};
+  ViewLayers layers = {};
   Panes::Look look = {};
 };
-constexpr TopViewLayers kNoLayers{.paths = false, .sensors = false, .names = false};
-constexpr TopViewLayers kPaths{.sensors = false, .names = false};
-constexpr TopViewLayers kRanges{.paths = false, .names = false};
-constexpr TopViewLayers kNames{.paths = false, .sensors = false};
+const ViewLayers kNoLayers{.paths = false, .sensors = false, .names = false};
+const ViewLayers kPaths{.sensors = false, .names = false};
+const ViewLayers kRanges{.paths = false, .names = false};
+const ViewLayers kNames{.paths = false, .sensors = false};
 const Kind kKinds[] = {{"2d", "from above, with paths, sonar fans and names", true, false},
                        {"2d-bare", "from above, robots and objects only", true, false, kNoLayers},
                        {"2d-paths", "… with paths", true, false, kPaths},

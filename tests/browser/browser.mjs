@@ -19,12 +19,13 @@ export async function openBrowser() {
   });
 }
 
-// A user with a separate page that has all panels open. Errors of the page are collected.
-// `onPage` is called with the page before it is loaded.
-export async function visit(browser, url, { name, init, onPage, ...options } = {}) {
+// A user with a separate page, in the view with details, which has all panels open, or in the game view. Errors of the page are
+// collected. `onPage` is called with the page before it is loaded.
+export async function visit(browser, url, { name, init, onPage, isGame = false, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   context.setDefaultTimeout(TIMEOUT_MS);
   if (name) await context.addInitScript((text) => localStorage.setItem('name', text), name);
+  if (!isGame) await context.addInitScript(() => localStorage.setItem('details', 'on'));
   if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.problems = [];

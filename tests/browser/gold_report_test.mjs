@@ -109,4 +109,19 @@ test('charts keep their texts legible on a phone', async () => {
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
+test('the report has links to the pages of two runs of each controller, which show them', async () => {
+  const links = page.locator('a[href^="runs/"]');
+  const files = await links.evaluateAll((all) => all.map((link) => link.getAttribute('href')));
+  assert.deepEqual(files.map((file) => file.replace(/\d+\.html$/, '')), ['runs/wander-', 'runs/wander-', 'runs/gold_finder-', 'runs/gold_finder-']);
+  const [name, result] = await links.first().locator('xpath=ancestor::tr').locator('th, td').allTextContents();
+  const run = await browser.newPage();
+  await run.goto(pathToFileURL(join(folder, files[0])).href);
+  await run.waitForFunction(() => document.body.dataset.ready);
+  assert.match(await run.locator('#summary').textContent(), new RegExp(`world small_maze · ${name.match(/(\d) robot/)[0]}`));
+  const found = await run.evaluate(() => globalThis.robosim.run.events.find(({ kind }) => kind === 'gold')?.time);
+  if (found === undefined) assert.equal(result, 'never');
+  else assert.ok(Math.abs(found - parseFloat(result)) < 0.2, `${found} ${result}`);
+  await run.close();
+});
+
 testReportPage(() => page);

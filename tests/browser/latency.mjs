@@ -1,12 +1,15 @@
 // Latency from a key press to the environment and from a step to the screen, and CPU use of the console: ./dev bench
 // remote
 //
-// worlds/open_house.xml in real time, steps of 20 ms, three robots with cameras of 25 pictures per second, everything
-// on this machine, headless Chromium. doc/experiments/network.md describes the measurements and has figures.
+// worlds/open_house.xml in real time, steps of 20 ms, three and ten robots with cameras of 25 pictures per second,
+// everything on this machine, headless Chromium. doc/experiments/network.md describes the measurements and has figures.
 
-import { readFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 
 import { openBrowser, takeControl, visit } from './browser.mjs';
+import { FOLDER } from './program.mjs';
 import { Session } from './session.mjs';
 import { spectate } from './web_socket.mjs';
 
@@ -95,15 +98,35 @@ async function measure(page, session) {
   console.log(`  the console's processor time:        ${cores.toFixed(3)} of a core`);
 }
 
-const session = await Session.open({ world: 'worlds/open_house.xml', robots: ['Pioneer1', 'Scout1', 'Pioneer2'] });
-const browser = await openBrowser();
-const page = await visit(browser, session.url, { name: 'Ada', init: noteTimes });
-await takeControl(page);
-console.log('one browser:');
-await measure(page, session);
-const spectators = await Promise.all(Array.from({ length: 50 }, (_, i) => spectate(session.url, `Spectator ${i}`)));
-console.log('and 50 spectators, which receive everything:');
-await measure(page, session);
-for (const one of spectators) one.destroy();
-await browser.close();
-await session.close();
+// The house with scouts in the free cells of its lowest row.
+function writeHouse(folder, scouts) {
+  const file = join(folder, 'house.xml');
+  const robots = Array.from({ length: scouts }, (_, i) => `<object><shape><robot><model>scout_driven</model>
+      <name>More${i + 1}</name><x>${-3.75 + 1.5 * i}</x><y>-3.75</y></robot></shape></object>`);
+  writeFileSync(file, readFileSync(`${FOLDER}worlds/open_house.xml`, 'utf8').replace('</surface>', `${robots.join('')}</surface>`));
+  return file;
+}
+
+async function drive(world, robots, title, spectators) {
+  const session = await Session.open({ world, robots });
+  const browser = await openBrowser();
+  const page = await visit(browser, session.url, { name: 'Ada', init: noteTimes });
+  await takeControl(page);
+  console.log(title);
+  await measure(page, session);
+  if (spectators > 0) {
+    const pages = await Promise.all(Array.from({ length: spectators }, (_, i) => spectate(session.url, `Spectator ${i}`)));
+    console.log(`and ${spectators} spectators, which receive everything:`);
+    await measure(page, session);
+    for (const one of pages) one.destroy();
+  }
+  await browser.close();
+  await session.close();
+}
+
+const HOUSE = ['Pioneer1', 'Scout1', 'Pioneer2'];
+const MORE = 7;
+const folder = mkdtempSync(join(tmpdir(), 'robosim_latency_'));
+await drive('worlds/open_house.xml', HOUSE, 'one browser:', 50);
+await drive(writeHouse(folder, MORE), [...HOUSE, ...Array.from({ length: MORE }, (_, i) => `More${i + 1}`)], 'ten robots with cameras, of which the browser shows one:', 0);
+rmSync(folder, { recursive: true });

@@ -57,17 +57,19 @@ export function violations() {
   }
 
   // Parts of the page. On the picture, what lies on it does not overlap either.
-  const isCompact = document.body.dataset.layout === 'compact';
-  const isOnPicture = isCompact || document.body.dataset.layout === 'phone';  // the banner
+  const { layout } = document.body.dataset;
+  const isCompact = ['compact', 'low'].includes(layout);
+  const isOnPicture = isCompact || ['phone', 'stack'].includes(layout);  // the banner
+  const hasCardOnPicture = isCompact || layout === 'wide';
   const isPictureOnly = document.body.dataset.camera !== 'none';
-  const parts = all(`.bar, ${isOnPicture && isPictureOnly ? '' : '.banner, '}.card, .tabs, .pad, .keys, .acts, .limit${isCompact || !isPictureOnly ? '' : ', .view'}`);
+  const parts = all(`.bar, ${isOnPicture && isPictureOnly ? '' : '.banner, '}.card, .tabs, .pad, .keys, .acts, .limit, .warmth, .best${hasCardOnPicture ? '' : ', .invite'}${isCompact || !isPictureOnly ? '' : ', .view'}`);
   const isBehind = (element) => isCompact && !isPictureOnly && element.matches('.range');  // panels open above it
   parts.forEach((a, i) => {
     for (const b of parts.slice(i + 1)) {
       if (!isNested(a, b) && overlap(a, b) && !isBehind(a.element) && !isBehind(b.element)) found.push(`${name(a.element)} overlaps ${name(b.element)}`);
     }
   });
-  const onPicture = all(`.view-head, .signals, .hud, .record${isCompact ? ', .pad, .acts, .limit, .tabs' : ''}`);
+  const onPicture = all(`.view-head, .signals, .hud, .record, .round-clock${isCompact ? ', .pad, .acts, .limit, .tabs, .warmth' : ''}${layout === 'low' ? ', .invite' : ''}`);
   const hidesHud = isCompact && all('.panel.shown, .map').length > 0;
   onPicture.forEach((a, i) => {
     for (const b of onPicture.slice(i + 1)) {

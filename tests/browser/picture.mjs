@@ -2,7 +2,7 @@
 //
 //     node tests/browser/picture.mjs FOLDER [NAME…]
 //
-// A user drives a Pioneer through worlds/open_house.xml for some seconds, or one robot of a team of 30 through an office.
+// In the game view, or with details and the map. A user drives a Pioneer through worlds/open_house.xml for some seconds, or one robot of a team of 30 through an office.
 
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -15,7 +15,8 @@ import { Session } from './session.mjs';
 
 const phone = { isMobile: true, hasTouch: true, deviceScaleFactor: 1.5 };
 const LOOKS = {
-  console_desk: { viewport: { width: 1280, height: 800 }, colorScheme: 'light', map: true },
+  console_desk: { viewport: { width: 1280, height: 800 }, colorScheme: 'light' },
+  console_details: { viewport: { width: 1280, height: 800 }, colorScheme: 'light', map: true },
   console_phone: { viewport: { width: 390, height: 844 }, colorScheme: 'light', ...phone },
   console_landscape: { viewport: { width: 844, height: 390 }, colorScheme: 'dark', ...phone },
   console_team: { viewport: { width: 1366, height: 768 }, colorScheme: 'light', map: true, team: 30 },
@@ -30,12 +31,12 @@ function writeOffice(folder, robots) {
   return { world: file, names: [...world.matchAll(/<model>.*?<name>(.*?)<\/name>/gs)].map(([, name]) => name) };
 }
 
-async function take(browser, name, { map, team, ...options }) {
+async function take(browser, name, { map = false, team, ...options }) {
   const folder = mkdtempSync(join(tmpdir(), 'robosim_picture_'));
   const office = team ? writeOffice(folder, team) : null;
   const robots = office?.names ?? ['Pioneer1', 'Scout1', 'Pioneer2'];
   const session = await Session.open({ world: office?.world ?? 'worlds/open_house.xml', robots, is_one_process: Boolean(team), serve: ['--record', join(folder, 'run.rawlog')] });
-  const page = await visit(browser, session.url, { name: 'Ada', ...options });
+  const page = await visit(browser, session.url, { name: 'Ada', isGame: !map, ...options });
   await takeControl(page);
   if (map) await page.click('#map-toggle');
   const start = await session.truth.standstill(robots[0]);

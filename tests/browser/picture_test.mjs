@@ -22,8 +22,8 @@ after(async () => {
   await session?.close();
 });
 
-// worlds/robots/*_driven.xml: 320 pixels cover 70°; the camera is 0.1 m ahead of the centre and pitched down by 10°.
-const FOCAL_PX = 160 / Math.tan((35 * Math.PI) / 180);
+// worlds/robots/*_driven.xml: 640 pixels cover 70°; the camera is 0.1 m ahead of the centre and pitched down by 10°.
+const FOCAL_PX = 320 / Math.tan((35 * Math.PI) / 180);
 const EYE_X = 0.1;
 const EYE_Z = { Ann: 0.36, Bob: 0.42 };
 const TILT = (10 * Math.PI) / 180;
@@ -33,8 +33,8 @@ function columnOfGold({ x, y, phi }, eye_z) {
   const ahead = Math.cos(phi) * (GOLD.x - x) + Math.sin(phi) * (GOLD.y - y) - EYE_X;
   const left = -Math.sin(phi) * (GOLD.x - x) + Math.cos(phi) * (GOLD.y - y);
   const depth = Math.cos(TILT) * ahead + Math.sin(TILT) * (eye_z - GOLD.z);
-  const column = 160 - (FOCAL_PX * left) / depth;
-  return depth > 0 && column > 40 && column < 280 ? column : undefined;
+  const column = 320 - (FOCAL_PX * left) / depth;
+  return depth > 0 && column > 80 && column < 560 ? column : undefined;
 }
 
 // Step of the displayed picture, and mean column of its gold pixels: much less blue than red, and than green.
@@ -45,7 +45,7 @@ const shown = () => page.evaluate(() => {
   for (let i = 0; i < width * height; ++i) {
     if (data[4 * i] - data[4 * i + 2] > 80 && data[4 * i + 1] - data[4 * i + 2] > 50) { sum += i % width; ++count; }
   }
-  return { step: Number(canvas.dataset.step), column: count > 50 ? sum / count + 0.5 : undefined, width, height };
+  return { step: Number(canvas.dataset.step), column: count > 200 ? sum / count + 0.5 : undefined, width, height };
 });
 
 // Waits for a picture with visible gold whose step has a known pose and is newer by a given number of steps.
@@ -61,8 +61,8 @@ async function lookAt(robot, after = 0) {
 
 test('the picture shows the gold at its direction from the robot', async () => {
   const { column, expected, width, height } = await lookAt('Ann');
-  assert.deepEqual([width, height], [320, 240]);
-  assert.ok(Math.abs(column - expected) < 3, `in column ${column}, and should be in ${expected}`);
+  assert.deepEqual([width, height], [640, 480]);
+  assert.ok(Math.abs(column - expected) < 6, `in column ${column}, and should be in ${expected}`);
 });
 
 test('while the robot turns, each picture matches its step number', async () => {
@@ -70,13 +70,13 @@ test('while the robot turns, each picture matches its step number', async () => 
   const columns = [];
   const span = () => Math.max(...columns) - Math.min(...columns);
   // The first pictures may still precede the turn.
-  for (let last = 0; columns.length < 8 || span() <= 5;) {
+  for (let last = 0; columns.length < 8 || span() <= 10;) {
     assert.ok(columns.length < 1000, `1,000 pictures, and the gold stays within ${span()} columns`);
     const seen = await lookAt('Ann', last);
     last = seen.step;
     columns.push(seen.column);
-    // The robot turns 1° per step: in the picture of another step the gold would be off by about 4 columns per step.
-    assert.ok(Math.abs(seen.column - seen.expected) < 3, `step ${last}: in column ${seen.column}, and should be in ${seen.expected}`);
+    // The robot turns 1° per step: in the picture of another step the gold would be off by about 8 columns per step.
+    assert.ok(Math.abs(seen.column - seen.expected) < 6, `step ${last}: in column ${seen.column}, and should be in ${seen.expected}`);
   }
   await page.keyboard.up('ArrowLeft');
   await session.truth.standstill('Ann');
@@ -88,6 +88,6 @@ test('after a switch the picture is that of the other robot', async () => {
   await page.waitForFunction(() => document.querySelector('#camera').dataset.step > 0);
   const { step } = await shown();  // the displayed picture may still be Ann's
   const { column, expected } = await lookAt('Bob', step);
-  assert.ok(Math.abs(column - expected) < 3, `in column ${column}, and should be in ${expected}`);
+  assert.ok(Math.abs(column - expected) < 6, `in column ${column}, and should be in ${expected}`);
   assert.deepEqual(page.problems, []);
 });

@@ -1,7 +1,8 @@
 // Random events of keyboard, mouse, touch, gamepad, focus, visibility, dialog, connection, control lock and robot on
 // the page: after a stop, and after a lost connection or control lock, no motion command is sent until every input has been
 // neutral at the same time while the page could drive. motion_property_test.mjs tests the state machine alone with a million.
-// ROBOSIM_VERIFY=1 (./dev verify console_inputs) takes a thousand events, otherwise 200.
+// In the view with details and in the game view. ROBOSIM_VERIFY=1 (./dev verify console_inputs) takes 10,000 events in each,
+// otherwise 100; ROBOSIM_EVENTS sets another number.
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
@@ -10,7 +11,9 @@ import { openBrowser } from './browser.mjs';
 import { emulateGamepad } from './emulated_gamepad.mjs';
 import { visitScripted } from './scripted_console.mjs';
 
-const EVENTS = process.env.ROBOSIM_VERIFY ? 1000 : 200;
+const EVENTS = Number(process.env.ROBOSIM_EVENTS ?? (process.env.ROBOSIM_VERIFY ? 10_000 : 100));
+// Where fingers press.
+const VIEWS = { details: ['pad', 'stop', 'turn-left', 'accelerate'], game: ['pad', 'stop'] };
 
 let browser;
 before(async () => { browser = await openBrowser(); });
@@ -140,14 +143,14 @@ function randomOf(seed) {
   };
 }
 
-test(`after a stop, ${EVENTS} random events or more cause no motion command before all inputs were neutral`, async () => {
-  const page = await visitScripted(browser, 'driving', { hasTouch: true, init: `(${emulateGamepad})(); (${emulateVisibility})(); (${spectate})();` });
+for (const [view, controls] of Object.entries(VIEWS)) test(`${view}: after a stop, ${EVENTS} random events or more cause no motion command before all inputs were neutral`, async () => {
+  const page = await visitScripted(browser, 'driving', { isGame: view === 'game', hasTouch: true, init: `(${emulateGamepad})(); (${emulateVisibility})(); (${spectate})();` });
   const touch = await page.context().newCDPSession(page);
-  const random = randomOf(20);
+  const random = randomOf(view === 'game' ? 21 : 20);
   const KEYS = ['ArrowUp', 'KeyS', 'ArrowLeft', 'KeyD', 'Equal', 'Minus', 'Space', 'Escape'];
   const down = new Set();
   const fingers = new Map();  // by number: {x, y}
-  const boxes = Object.fromEntries(await Promise.all(['pad', 'stop', 'turn-left', 'accelerate'].map(async (id) => [id, await page.locator(`#${id}`).boundingBox()])));
+  const boxes = Object.fromEntries(await Promise.all(controls.map(async (id) => [id, await page.locator(`#${id}`).boundingBox()])));
   const inside = ({ x, y, width, height }) => ({ x: x + width * (0.3 + 0.1 * random(5)), y: y + height * (0.3 + 0.1 * random(5)) });
   const points = () => [...fingers].map(([id, at]) => ({ id, ...at }));
   const sendTouch = (type) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points() });
@@ -186,7 +189,7 @@ test(`after a stop, ${EVENTS} random events or more cause no motion command befo
     press, press, press, press, unpress, unpress, unpress,
     async () => {  // a finger more
       const id = fingers.size;
-      const box = boxes[['pad', 'pad', 'turn-left', 'accelerate', 'stop'][random(5)]];
+      const box = boxes[random(5) ? controls[random(controls.length)] : 'pad'];
       if (id > 2) return;
       fingers.set(id, inside(box));
       await sendTouch('touchStart');
@@ -201,7 +204,7 @@ test(`after a stop, ${EVENTS} random events or more cause no motion command befo
       await sendTouch('touchEnd');
     },
     async () => {
-      const { x, y } = inside(boxes[['pad', 'stop', 'turn-left'][random(3)]]);
+      const { x, y } = inside(boxes[controls[random(controls.length)]]);
       await page.mouse.move(x, y);
       await page.mouse.down();
     },
@@ -214,7 +217,7 @@ test(`after a stop, ${EVENTS} random events or more cause no motion command befo
       if (pick === 0) await page.evaluate(() => { dispatchEvent(new Event('blur')); });
       if (pick === 1) await page.evaluate(() => { dispatchEvent(new Event('focus')); });
       if (pick === 2) await page.evaluate(() => { const help = document.querySelector('#help'); if (help.open) help.close(); else help.showModal(); });
-      if (pick === 3) await page.focus(['#limit', '#autonomous', '#tab-team', '#team-filter'][random(4)], { timeout: 100 }).catch(() => {});
+      if (pick === 3) await page.focus(['#limit', '#autonomous', '#tab-team', '#team-filter', '#sound'][random(5)], { timeout: 100 }).catch(() => {});
       if (pick === 4) { page.script.holder = 3 - page.script.holder; page.script.sendTeam(); }
       if (pick === 5 && random(4) === 0) await page.script.socket.close({ code: 1001, reason: 'a break' });
       if (pick === 6) await page.evaluate((hidden) => setHidden(hidden), random(2) === 0);
@@ -322,6 +325,33 @@ test('a key pressed while the help is open is not neutral until it is released',
   assert.deepEqual(sent.filter(isDrive), []);
   await page.keyboard.up('ArrowLeft');
   await page.keyboard.up('ArrowUp');
+  await page.waitForFunction(() => document.querySelector('#hint').hidden);
+  await page.keyboard.down('ArrowLeft');
+  await until(isDrive);
+  await page.keyboard.up('ArrowLeft');
+  await page.context().close();
+});
+
+test('a stop key that was pressed without control is not neutral until it is released', async () => {
+  const page = await visitScripted(browser, 'driving');
+  const sent = [];
+  page.script.onMessage = (message) => sent.push(message);
+  const until = async (holds) => { while (!sent.some(holds)) await page.evaluate(() => new Promise((done) => { setTimeout(done, 20); })); };
+  const isDrive = ({ type }) => type === 'drive';
+  const setHolder = async (holder) => {
+    page.script.holder = holder;
+    page.script.sendTeam();
+    await page.waitForFunction((isOurs) => document.querySelector('#accelerate').disabled !== isOurs, holder === 1);
+  };
+  await setHolder(2);
+  await page.keyboard.down('Escape');
+  await setHolder(1);
+  await page.keyboard.down('ArrowLeft');
+  sent.length = 0;
+  await until(({ type }) => type === 'alive');
+  assert.deepEqual(sent.filter(isDrive), []);
+  await page.keyboard.up('Escape');
+  await page.keyboard.up('ArrowLeft');
   await page.waitForFunction(() => document.querySelector('#hint').hidden);
   await page.keyboard.down('ArrowLeft');
   await until(isDrive);

@@ -33,6 +33,39 @@ function sensors(hasCamera) {
   ];
 }
 
+const ADA = { page: 1, name: 'Ada', team: 'Red' };
+const BEA = { page: 2, name: 'Bea Sommerfeld', team: 'Blue' };
+const QUEUE = [3, 4, 5, 6, 7, 8].map((page) => ({ page, name: `Visitor ${page}`, team: '' }));
+const TEAMS = ['Red', 'Blue', 'Green'];
+const BEST = [['Ada', 41.2], ['Bea Sommerfeld', 58], ['Visitor 3', 73.4], ['A visitor with a long name', 99.9], ['Visitor 7', 121]]
+  .map(([name, time_s], i) => ({ name, team: TEAMS[i % 2], time_s, distance_m: i === 4 ? null : 14.2 + i }));
+const STANDINGS = [{ team: 'Red', wins: 3, best_s: 41.2 }, { team: 'Blue', wins: 2, best_s: 58 }];
+const round = (phase, more = {}) => ({ phase, length_s: 180, left_s: 97, visitor: null, queue: [], teams: TEAMS, ...more });
+const result = (who, more = {}) => ({ ...who, number: 1, won: true, time_s: 41.2, distance_m: 14.2, rank: 1, ...more });
+
+// States of the game view.
+export const GAME_STATES = {
+  mission: { is_still: true },
+  'driving, cold': { heat: 2 },
+  'driving, warm': { heat: 11 },
+  'driving, hot': { heat: 18.9 },
+  'won a game': { winner: 'Pioneer1', result: result(ADA), best: BEST, run: { phase: 'ended', may_restart: true } },
+  attract: { holder: 0, autonomous: true, rounds: round('idle'), best: BEST, standings: STANDINGS },
+  'a round': { heat: 13, rounds: round('driving', { visitor: ADA, queue: QUEUE }), best: BEST, standings: STANDINGS },
+  'a round ends': { heat: 16, is_stopping: true, rounds: round('driving', { visitor: ADA, left_s: 9 }) },
+  called: { holder: 0, autonomous: true, rounds: round('called', { visitor: ADA, left_s: 14 }) },
+  queue: { holder: 2, rounds: round('driving', { visitor: BEA, queue: [...QUEUE, ADA] }), best: BEST },
+  'watching a round': { holder: 2, rounds: round('driving', { visitor: BEA, queue: QUEUE }), best: BEST },
+  starting: { holder: 0, rounds: round('starting', { visitor: ADA }) },
+  'won a round': { holder: 0, winner: 'Pioneer1', rounds: round('result', { visitor: ADA, queue: QUEUE }), result: result(ADA), best: BEST, standings: STANDINGS },
+  'time over': { holder: 0, rounds: round('result', { visitor: ADA }), result: result(ADA, { won: false, rank: 0, time_s: 180 }), best: BEST },
+  'another has won': { holder: 0, winner: 'Pioneer1', rounds: round('result', { visitor: BEA }), result: result(BEA, { rank: 2 }), best: BEST },
+  'game, down, long names': { is_down: true, has_long_names: true },
+  'game, gone': { is_silent: true, run: { phase: 'gone', problem: 'no answer for 1 s' } },
+  'game, no camera': { has_camera: false },
+  'game, help': { dialog: 'help', rounds: round('driving', { visitor: ADA }) },
+};
+
 // States that the page must show: the changes to the messages of a robot that is driven.
 export const STATES = {
   driving: {},
@@ -63,8 +96,9 @@ export const STATES = {
 };
 
 class Script {
-  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_over = false, is_silent = false, is_stalled = false, is_stopping = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {} }) {
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_over = false, is_silent = false, is_stalled = false, is_stopping = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {}, rounds = null, result = null, best = [], standings = [], heat = null, autonomous = false, is_still = false }) {
     const isSilent = is_silent;
+    Object.assign(this, { rounds, result, best, standings, heat, autonomous, is_still });
     Object.assign(this, { socket, refuses, holder, is_down, is_over, may_operate, winner, isSilent, is_stalled, is_stopping, why_stopped: '', has_camera, run, step: 6000, updates: 0, stops: 0, refusals: 1, driven_m: 48.2 });
     this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
     socket.onMessage((text) => this.receive(JSON.parse(text)));
@@ -86,13 +120,14 @@ class Script {
   }
 
   welcome() {
-    this.send({ type: 'welcome', you: 1, may_operate: this.may_operate });
+    this.send({ type: 'welcome', you: 1, may_operate: this.may_operate, has_rounds: Boolean(this.rounds) });
     this.sendRun(this.run);
     this.send({
       type: 'robot', name: this.names[0], model: 'pioneer3dx_driven', radius_m: 0.267, speed_max_mps: 1, turn_max_radps: 1.74, period_s: 0.02,
       sensors: sensors(this.has_camera),
     });
     this.sendTeam();
+    this.sendGame();
     this.send({ type: 'note', text: 'Pioneer1 is too far from the gold to have won.', warning: true });
     this.updates = 0;
     this.sendUpdate();
@@ -120,6 +155,10 @@ class Script {
     });
   }
 
+  sendGame() {
+    this.send({ type: 'game', rounds: this.rounds, result: this.result, best: this.best, standings: this.standings });
+  }
+
   sendTeam() {
     this.send({
       type: 'team', world: 'open_house', pages: 2, winner: this.winner, winner_driven_m: this.winner ? this.driven_m : null,
@@ -127,7 +166,7 @@ class Script {
       robots: this.names.map((name, i) => ({
         name, color: colorOf(i), address: `127.0.0.1:${9001 + i}`, model: 'pioneer3dx_driven', up: !this.is_over && !(this.is_down && i === 0) && i % 7 !== 5, over: this.is_over,
         problem: this.is_over ? 'the run is over' : (this.is_down && i === 0) || i % 7 === 5 ? `no robot answers at 127.0.0.1:${9001 + i}; is 'robosim robot ${name} --remote-port …' running?` : '',
-        fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (name === this.winner ? 'found' : 'halted') : 'active', is_stopping: this.is_stopping && i === 0, why_stopped: i === 0 ? this.why_stopped : '',
+        fit: i % 7 !== 5, autonomous: i > 0 || this.autonomous, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (name === this.winner ? 'found' : 'halted') : 'active', is_stopping: this.is_stopping && i === 0, why_stopped: i === 0 ? this.why_stopped : '',
       })),
     });
     const isUp = (_, i) => i % 7 !== 5;
@@ -155,12 +194,12 @@ class Script {
     const time_s = this.step * 0.02;
     const measured = {
       sonar: Array.from({ length: 16 }, (_, i) => (i % 5 === 0 ? 5000 : 900 + 350 * (i % 6))), laser: Array.from({ length: 181 }, (_, i) => Math.round(1800 + 900 * Math.sin(i / 14))),
-      camera: null, heat: 3 + 2 * Math.sin(time_s / 4), bumper: Array(12).fill(0).map((_, i) => (this.is_stalled && i === 6 ? 1 : 0)),
-      odometry: { x_m: 0.4 * time_s, y_m: Math.sin(time_s / 3), heading_rad: 0.3, speed_mps: 0.42, turn_radps: -0.35 }, compass: 0.3, battery: 12.61,
+      camera: null, heat: this.heat ?? 3 + 2 * Math.sin(time_s / 4), bumper: Array(12).fill(0).map((_, i) => (this.is_stalled && i === 6 ? 1 : 0)),
+      odometry: { x_m: 0.4 * time_s, y_m: Math.sin(time_s / 3), heading_rad: 0.3, speed_mps: this.is_still ? 0 : 0.42, turn_radps: -0.35 }, compass: 0.3, battery: 12.61,
     };
     const json = Buffer.from(JSON.stringify({
       type: 'update', robot: this.names[0], step: this.step, time_s, driven_m: this.driven_m, stalled: this.is_stalled, laser_pan_rad: 0,
-      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', is_stopping: this.is_stopping, why_stopped: this.why_stopped, win_refusals: this.updates > 1 ? this.refusals : 0, stops: this.stops },
+      state: { autonomous: this.autonomous, driver: 'Ada', is_yours: true, speed_mps: this.is_still ? 0 : 0.5, turn_radps: this.is_still ? 0 : -0.4, activity: 'active', is_stopping: this.is_stopping, why_stopped: this.why_stopped, win_refusals: this.updates > 1 ? this.refusals : 0, stops: this.stops },
       measurements: sensors(this.has_camera).map(({ kind }) => measured[kind]), ...(this.has_camera ? { picture_step: this.step } : {}),
     }));
     const length = Buffer.alloc(4);
@@ -170,8 +209,9 @@ class Script {
 }
 
 // A page in one of STATES, which has drawn two updates. `page.script` changes the state.
+// The states of STATES are shown with details, those of GAME_STATES in the game view.
 // `hasClock`: the page's clock is page.clock (Playwright); `init`: a script that runs before the page's.
-export async function visitScripted(browser, state, { hasClock = false, init, ...options } = {}) {
+export async function visitScripted(browser, state, { hasClock = false, isGame = false, init, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
   context.setDefaultTimeout(TIMEOUT_MS);
   const page = await context.newPage();
@@ -183,18 +223,20 @@ export async function visitScripted(browser, state, { hasClock = false, init, ..
     const file = join(FOLDER, 'lib/controller/console/page', path === '/' ? 'index.html' : path);
     return route.fulfill({ body: readFileSync(file), headers: { ...HEADERS, 'content-type': TYPES[extname(file)] } });
   });
+  const content = STATES[state] ?? GAME_STATES[state];
   await page.routeWebSocket(`${ORIGIN.replace('http', 'ws')}/**`, (socket) => {
     page.script?.end();  // the page connects again
-    page.script = new Script(socket, STATES[state]);
+    page.script = new Script(socket, content);
   });
   page.on('close', () => page.script?.end());
   if (hasClock) await page.clock.install();
+  if (state in STATES && !isGame) await page.addInitScript(() => localStorage.setItem('details', 'on'));
   if (init) await page.addInitScript(init);
   await page.goto(ORIGIN);
   await page.waitForFunction(() => document.body.dataset.step > 0);
-  if (STATES[state].has_map) await page.click('#map-toggle');
-  if (STATES[state].dialog === 'help') await page.click('#help-open');
-  if (STATES[state].dialog === 'login') {
+  if (content.has_map) await page.click('#map-toggle');
+  if (content.dialog === 'help') await page.click('#help-open');
+  if (content.dialog === 'login') {
     await page.script.refuse();
     await page.waitForSelector('#login[open]');
   }

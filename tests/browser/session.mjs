@@ -26,6 +26,16 @@ class Truth {
     return this.#frames.at(-1)?.robots;
   }
 
+  // The newest frame, and the first one of which `holds`.
+  get newest() {
+    this.#readOn();
+    return this.#frames.at(-1);
+  }
+  first(holds) {
+    this.#readOn();
+    return this.#frames.find(holds);
+  }
+
   // Waits until `holds` of a robot's pose: the pose.
   async until(robot, holds) {
     return this.viewer.until(() => {

@@ -70,6 +70,9 @@ export class RawSocket {
   stopReading() {
     this.#socket.pause();
   }
+  readAgain() {
+    this.#socket.resume();
+  }
   destroy() {
     this.#socket.destroy();
   }

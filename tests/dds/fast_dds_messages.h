@@ -181,6 +181,20 @@ struct Imu {
   FAST_MESSAGE("sensor_msgs::msg::dds_::Imu_", header, orientation, orientation_covariance, angular_velocity,
                angular_velocity_covariance, linear_acceleration, linear_acceleration_covariance)
 };
+struct NavSatStatus {
+  std::int8_t status = 0;
+  std::uint16_t service = 0;
+  FAST_MESSAGE("sensor_msgs::msg::dds_::NavSatStatus_", status, service)
+};
+struct NavSatFix {
+  Header header;
+  NavSatStatus status;
+  double latitude = 0, longitude = 0, altitude = 0;
+  std::array<double, 9> position_covariance{};
+  std::uint8_t position_covariance_type = 0;
+  FAST_MESSAGE("sensor_msgs::msg::dds_::NavSatFix_", header, status, latitude, longitude, altitude, position_covariance,
+               position_covariance_type)
+};
 struct CompressedImage {
   Header header;
   std::string format;

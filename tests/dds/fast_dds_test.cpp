@@ -137,7 +137,7 @@ using All = testing::Types<
     Both<ros::PointCloud2, fast::PointCloud2>, Both<ros::BatteryState, fast::BatteryState>,
     Both<ros::String, fast::String>, Both<ros::Twist, fast::Twist>, Both<ros::TwistStamped, fast::TwistStamped>,
     Both<ros::PoseWithCovarianceStamped, fast::PoseWithCovarianceStamped>, Both<ros::Temperature, fast::Temperature>,
-    Both<ros::Imu, fast::Imu>, Both<ros::CompressedImage, fast::CompressedImage>,
+    Both<ros::Imu, fast::Imu>, Both<ros::NavSatFix, fast::NavSatFix>, Both<ros::CompressedImage, fast::CompressedImage>,
     Both<ros::CameraInfo, fast::CameraInfo>, Both<ros::UInt8MultiArray, fast::UInt8MultiArray>,
     Both<ros::Float64MultiArray, fast::Float64MultiArray>, Both<ros::MarkerArray, fast::MarkerArray>>;
 TYPED_TEST_SUITE(FastDds, All);

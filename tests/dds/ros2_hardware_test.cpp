@@ -57,7 +57,7 @@ class PublishedRobot final : TopicSink {
   /// Publishes the present readings, all but some topics.
   void publish(const std::set<std::string>& without = {}) {
     without_ = without;
-    topics_.write(state().readings[0], state().world_from_robot[0], std::nullopt, {}, *this);
+    topics_.write(state().readings[0], RobotTruth{state().world_from_robot[0], {}}, std::nullopt, {}, *this);
   }
   void step() {
     run_.environment().setCommand(0, {.speed_mps = speed_mps_, .turn_radps = turn_radps_});

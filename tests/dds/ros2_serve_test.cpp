@@ -173,6 +173,20 @@ TEST(Ros2Serve, PublishesWhatARecordingContains) {
   EXPECT_EQ(transforms.at(0).header.frame_id, "Pioneer1/base_link");
 }
 
+TEST(Ros2Serve, PublishesRangesWithoutVarianceForHumble) {
+  fast::Peer peer(testDomain());
+  Received ranges(peer, "/Pioneer1/sonar/range_3", fast::Range::kDdsType);
+  Received of_truth(peer, "/Pioneer1/ground_truth", fast::Odometry::kDdsType);
+  StartedProgram robosim(arguments("run", {"--speed", "4", "--time", "1000", "--ros2-distribution", "humble"}));
+  ASSERT_TRUE(eventually([&] { return ranges.count() > 0 && of_truth.count() > 0; })) << robosim.error();
+  robosim.interrupt();
+  robosim.wait();
+  // The header of CDR, stamp, "Pioneer1/sonar_3" with its length, the kind of radiation, four numbers.
+  const std::size_t text_end = 4 + 8 + 4 + std::string("Pioneer1/sonar_3").size() + 1;
+  const std::size_t numbers = (text_end + 1 + 3) / 4 * 4;
+  EXPECT_EQ(ranges.all().front().size(), numbers + 4 * sizeof(float));
+}
+
 TEST(Ros2Serve, DoesNotChangeARun) {
   const std::vector<std::string> serve{"serve",    kMaze,         "--controller", "gold_finder",
                                        "--listen", "127.0.0.1:0", "--time",       "3"};

@@ -151,6 +151,7 @@ for (const protocol of ['foxglove.websocket.v1', 'foxglove.sdk.v1']) {
   });
 }
 
+const viewing = (source, ...args) => start('view', source, ...args);
 const robotOf = (client) => [...client.channels.keys()].find((topic) => topic.endsWith('/odom')).split('/')[1];
 // The first robot, when a message of each of its topics may have been received.
 async function standing(client) {
@@ -292,6 +293,161 @@ test('a run of one process is served to its end, in real time and with the same 
   const refused = new Program(ROBOSIM, ['run', MAZE, '--foxglove', '0.0.0.0:0']);
   await refused.ended();
   assert.match(refused.error, /other machines could drive the robots/);
+});
+
+// The size that a JPEG file states in its frame header.
+function sizeOfJpeg(bytes) {
+  assert.deepEqual([...bytes.slice(0, 2), ...bytes.slice(-2)], [0xff, 0xd8, 0xff, 0xd9]);
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  for (let at = 2; at < bytes.length; at += 2 + view.getUint16(at + 2)) {
+    const marker = view.getUint16(at);
+    if (marker === 0xffc0 || marker === 0xffc2) return { height: view.getUint16(at + 5), width: view.getUint16(at + 7) };
+  }
+  return undefined;
+}
+
+test('pictures of a camera come live and from a recording, in the size of its CameraInfo', async () => {
+  const [world, recording] = ['lit.xml', 'lit.mcap'].map(inFolder);
+  writeFileSync(world, `<world><surface><size><xmin>-3</xmin><xmax>3</xmax><ymin>-3</ymin><ymax>3</ymax></size>
+    <object><shape><robot><model>pioneer3dx_camera</model><name>Eye</name><x>0</x><y>0</y></robot></shape></object></surface></world>`);
+  const served = serve(world, '--controller', 'still', '--paused', '--json', '--record', recording);
+  const live = connect(await served.url());
+  const image = '/Eye/camera/image_raw/compressed';
+  const pictured = async (client) => {
+    await client.until(() => client.of(image).length > 1 && client.of('/Eye/camera/camera_info').length > 0);
+    const picture = client.last(image), { width, height } = client.last('/Eye/camera/camera_info');
+    assert.equal(picture.format, 'jpeg');
+    assert.equal(picture.header.frame_id, 'Eye/camera_optical');
+    assert.deepEqual(sizeOfJpeg(picture.data), { height, width });
+  };
+  await live.until(() => live.of('/map').length > 0);
+  live.set('/run/steps_left', 20);
+  await pictured(live);
+  await live.until(() => live.of('/clock').at(-1).time === 2n * SECOND);
+  await summaryOf(served);
+  await pictured(connect(await viewing(recording, '--speed', '5').url()));
+});
+
+test('an operator starts and stops the recording', async () => {
+  const file = inFolder('on_request.mcap');
+  const served = serve(MAZE, '--controller', 'still', '--paused', '--record', file, '--record-on-request');
+  const client = connect(await served.url(), { subscribes: (topic) => topic === '/clock' });
+  await client.until(() => client.info);
+  client.client.subscribeParameterUpdates([]);
+  client.client.getParameters([], 'all');
+  await client.until(() => client.parameters.get('/run/recording') === false);
+  client.set('/run/recording', 'on');
+  await client.until(() => client.statuses.some(({ message }) => message === '/run/recording: must be true or false'));
+  client.set('/run/recording', true);
+  await client.until(() => client.parameters.get('/run/recording') === true);
+  client.set('/run/steps_left', 5);
+  await client.until(() => client.of('/clock').at(-1)?.time === SECOND / 2n);
+  client.set('/run/recording', false);
+  await client.until(() => client.parameters.get('/run/recording') === false);
+  await served.says(/audit: .*record on[^]*audit: .*record off/);
+  const { topics } = JSON.parse(robosim('replay', file, '--index', '--json'));
+  assert.equal(topics.find(({ topic }) => topic === '/clock').count, 6);  // with the step at which it began
+});
+
+// Frames of the protocol that @foxglove/ws-protocol does not know yet.
+class Player {
+  states = [];
+  constructor(client) {
+    this.client = client;
+    client.socket.prependListener('message', (bytes) => {  // before the client reports it
+      const data = Buffer.from(bytes);  // the client has asked for an ArrayBuffer
+      if (data[0] !== 5) return;
+      this.states.push({ status: data[1], time: data.readBigUInt64LE(2), speed: data.readFloatLE(10), didSeek: data[14] === 1,
+                         request: data.toString('utf8', 19, 19 + data.readUInt32LE(15)) });
+    });
+  }
+  control(plays, speed, seek, request) {
+    const head = Buffer.alloc(19);
+    head[0] = 3;
+    head[1] = plays ? 0 : 1;
+    head.writeFloatLE(speed, 2);
+    head[6] = seek === undefined ? 0 : 1;
+    head.writeBigUInt64LE(seek ?? 0n, 7);
+    head.writeUInt32LE(request.length, 15);
+    this.client.socket.send(Buffer.concat([head, Buffer.from(request)]));
+  }
+  answer(request) {
+    return this.client.until(() => this.states.find((state) => state.request === request));
+  }
+}
+
+test('a recording is played with the numbers that it has: pause, seek, speed, step', async () => {
+  const [file, table] = ['played.rawlog', 'played.csv'].map(inFolder);
+  robosim('run', MAZE, '--controller', 'wander', '--seed', '7', '--time', '20', '--record', file);
+  robosim('export', file, table);
+  const url = await viewing(file, '--from', '0').url();
+  const client = connect(url);
+  const player = new Player(client);
+  await client.until(() => client.of('/clock').length > 0 && client.of('/map').length > 0);
+  assert.deepEqual(client.info.dataEndTime, { sec: 20, nsec: 0 });
+  assert.ok(client.info.capabilities.includes('playbackControl'));
+  assert.ok(!client.channels.has('/Pioneer1/cmd_vel'));
+  player.control(false, 1, 12_000_000_000n, 'seek');
+  assert.deepEqual(await player.answer('seek'), { status: 1, time: 12_000_000_000n, speed: 1, didSeek: true, request: 'seek' });
+  // The last message of a step is that of /robots.
+  const hasCome = (seconds) => client.until(() => client.of('/robots').at(-1)?.time === seconds * SECOND);
+  await hasCome(12n);
+  client.topics.clear();
+  client.client.subscribeParameterUpdates([]);
+  client.set('/run/time', 0);
+  await hasCome(0n);
+  assert.equal(client.of('/tf_static').length, 1);
+  client.set('/run/steps_left', 200);
+  await hasCome(20n);
+  // All steps, as the table has them; the time 0 has been sent once, too.
+  for (const topic of ['/clock', '/Pioneer1/odom', '/Scout1/ground_truth']) assert.equal(client.of(topic).length, 201, topic);
+  assert.ok(compareWithTable(client.topics, table) > 20000);
+  player.control(true, 4, 5_000_000_000n, 'play');
+  assert.equal((await player.answer('play')).status, 0);
+  await client.until(() => player.states.at(-1).status === 3);
+  assert.equal(client.parameters.get('/run/speed'), 4);
+  player.control(true, Infinity, undefined, 'wrong');
+  await client.until(() => client.statuses.some(({ message }) => message === 'playback: the speed must be a number'));
+  client.set('/run/duration', 3);
+  await client.until(() => client.statuses.some(({ message }) => message === '/run/duration: is that of the recording'));
+  const driving = drive(client, 'Pioneer1', 0.3, 0);
+  await client.until(() => client.statuses.some(({ message }) => message.includes('no robot has this topic')));
+  driving.leave();
+});
+
+test('a served run and a world are viewed, the run with the rights of its token', async () => {
+  const world = connect(await viewing(MAZE).url());
+  await world.until(() => world.of('/Pioneer1/scan').length > 0 && world.of('/map').length > 0);
+  world.set('/run/paused', true);
+  await world.until(() => world.statuses.some(({ message }) => message === '/run/paused: nothing runs here'));
+  const served = start('serve', MAZE, '--listen', ':0', '--controller', 'wander', '--speed', '2');
+  const address = (await served.says(/listening on (\S+)/))[1];
+  const client = connect(await viewing(address).url());
+  await client.until(() => client.of('/clock').length > 3 && client.of('/Pioneer1/scan').length > 3);
+  client.client.subscribeParameterUpdates([]);
+  client.set('/run/paused', true);
+  await client.until(() => client.parameters.get('/run/paused') === true);
+  client.set('/run/steps_left', 1);
+  const refused = new Program(ROBOSIM, ['view', MAZE, '--foxglove', '0.0.0.0:0']);
+  await refused.ended();
+  assert.match(refused.error, /--foxglove 0.0.0.0:0/);
+});
+
+test('a recording of another program is played: each measurement once', async () => {
+  robosim('run', MAZE, '--controller', 'wander', '--seed', '7', '--time', '3', '--record', inFolder('whole.rawlog'));
+  // Without comments, a rawlog is one of another program.
+  robosim('replay', inFolder('whole.rawlog'), '--robot', 'Pioneer1', '--sensor', 'GROUND_TRUTH', '--sensor', 'laser', '--output', inFolder('part.rawlog'));
+  const client = connect(await viewing(inFolder('part.rawlog')).url());
+  await client.until(() => client.of('/clock').length > 0);
+  client.set('/run/paused', true);
+  client.set('/run/time', 0);
+  await client.until(() => client.of('/clock').at(-1).time === 0n);
+  client.topics.clear();
+  client.set('/run/steps_left', 60);
+  await client.until(() => client.of('/clock').at(-1)?.time === 3n * SECOND);
+  const scans = client.of('/Pioneer1/scan');
+  assert.equal(scans.length, 30);
+  assert.ok(scans.every(({ message }) => message.ranges.length === 181));
 });
 
 test('the layout for Foxglove shows topics of the world that the documentation serves', async () => {

@@ -14,7 +14,8 @@ struct NoSimulator final : Simulator {
   void setTruePose(const arcos::SimPose&) override {}
   void resetTruePose() override {}
   std::string mapFile() const override { return "map"; }
-  std::span<const std::uint16_t> scan() const override { return ranges; }
+  std::optional<arcos::SimMap> loadMap(const std::string&) override { return arcos::SimMap{}; }
+  arcos::Scan scan(std::size_t) const override { return {.ranges_mm = ranges}; }
   void log(const std::string&) override {}
   std::vector<std::uint16_t> ranges = std::vector<std::uint16_t>(181, 1000);
 };

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "learning/environment_batch.h"
 #include "robosim_bench/ray_caster.h"
@@ -62,7 +63,7 @@ InstructionWork allErrors() {
 }
 
 /// 50 worlds of one robot each, after some warm-up steps.
-InstructionWork batch() {
+InstructionWork batch(const std::vector<std::string>& observations) {
   constexpr std::size_t kWorlds = 50;
   constexpr int kSteps = 50;
   struct Batch {
@@ -86,7 +87,7 @@ InstructionWork batch() {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) worlds.push_back(makeWorldToRun(workloadNamed("laser"), 1, seed));
   BatchOptions options;
   options.environments = kWorlds;
-  options.observations = {"laser", "odometry"};
+  options.observations = observations;
   const auto made = std::make_shared<Batch>(std::move(worlds), options);
   for (int i = 0; i < 10; ++i) made->step();
   return {.units = static_cast<double>(kWorlds) * kSteps, .work = [made] {
@@ -142,7 +143,11 @@ constexpr InstructionLoad kLoads[] = {
     {"sonar, Gaussian noise", "robot-step", [] { return sonarWith("", "<noise/>"); }, false},
     {"sonar, all errors", "robot-step", [] { return sonarWith("noise='polaroid'", ""); }},
     {"infrared", "robot-step", [] { return robots("infrared"); }},
-    {"batch of laser", "agent-step", batch},
+    {"batch of laser", "agent-step",
+     [] {
+       return batch({"laser", "odometry"});
+     }},
+    {"batch of odometry", "agent-step", [] { return batch({"odometry"}); }},
     {"rays, scans to 8 m", "ray", [] { return rays(&RayCaster::castScans, 8); }},
     {"rays, scans to 20 m", "ray", [] { return rays(&RayCaster::castScans, 20); }, false},
     {"rays, single rays to 8 m", "ray", [] { return rays(&RayCaster::castSingles, 8); }},

@@ -4,6 +4,7 @@
 //   robosim_instructions FILE --brief    the same of the short form, in half the time
 //   robosim_instructions FILE --update   counts, and stores the counts in FILE
 //   robosim_instructions --do TALLY      runs the loads once: the program that callgrind runs
+#include <cstdint>
 #include <fstream>
 #include <iostream>
 
@@ -14,6 +15,13 @@
 #include "tests/instructions/loads.h"
 #include "tests/scenarios/verifying.h"
 #include "tests/stock_tools.h"
+
+// In place of the function of libhwy, which a library of videos loads: it measures the clock when it is loaded, by an
+// instruction that Valgrind refuses on processors that do not announce it.
+namespace hwy::platform {
+std::uint64_t TimerResolution();
+std::uint64_t TimerResolution() { return 1; }
+}  // namespace hwy::platform
 
 namespace robosim {
 namespace {

@@ -89,6 +89,48 @@ test('a recorded file has the numbers of the rawlog of the same run', async () =
   assert.equal(new Set(frames).size, frames.length);
 });
 
+test('the twist of the true pose is the velocity that leads to it', async () => {
+  const yawOf = ({ z, w }) => 2 * Math.atan2(z, w);
+  const topics = await decoded(inFolder('run.mcap'));
+  let turned = 0;
+  for (const [topic, messages] of topics) {
+    if (!topic.endsWith('/ground_truth')) continue;
+    messages.slice(1).forEach(({ message }, i) => {
+      const from = messages[i].message.pose.pose, to = message.pose.pose;
+      const speed = message.twist.twist.linear.x, turn = message.twist.twist.angular.z;
+      // An arc of 0.1 s: in the robot's frame, x is the integral of speed cos(turn t), y that of speed sin(turn t).
+      const angle = 0.1 * turn;
+      const [x, y] = turn === 0 ? [0.1 * speed, 0] : [speed * Math.sin(angle) / turn, speed * (1 - Math.cos(angle)) / turn];
+      const yaw = yawOf(from.orientation);
+      const near = (actual, expected) => assert.ok(Math.abs(actual - expected) < 1e-9, `${topic} ${i}: ${actual}, ${expected}`);
+      near(from.position.x + x * Math.cos(yaw) - y * Math.sin(yaw), to.position.x);
+      near(from.position.y + x * Math.sin(yaw) + y * Math.cos(yaw), to.position.y);
+      near(Math.sin(yaw + angle - yawOf(to.orientation)), 0);
+      assert.equal(message.twist.twist.linear.y, 0);
+      if (turn !== 0 && speed !== 0) ++turned;
+    });
+  }
+  assert.ok(turned > STEPS / 2, `${turned} steps with a turn`);
+});
+
+test('a file for Humble has a Range without variance, and the other messages as they are', async () => {
+  robosim('run', 'worlds/small_maze.xml', '--time', '1', '--seed', '7', '--ros2-distribution', 'humble', '--record', inFolder('humble.mcap'));
+  robosim('run', 'worlds/small_maze.xml', '--time', '1', '--seed', '7', '--record', inFolder('short.rawlog'));
+  robosim('export', '--ros2-distribution', 'humble', inFolder('short.rawlog'), inFolder('exported_humble.mcap'));
+  robosim('export', inFolder('short.rawlog'), inFolder('short.csv'));
+  for (const file of ['humble.mcap', 'exported_humble.mcap']) {
+    const topics = await decoded(inFolder(file));
+    assert.ok(compareWithTable(topics, inFolder('short.csv')) > 1000);
+    for (const [topic, messages] of topics) {
+      if (messages[0].type !== 'sensor_msgs/msg/Range') continue;
+      assert.deepEqual(Object.keys(messages[0].message),
+        ['header', 'radiation_type', 'field_of_view', 'min_range', 'max_range', 'range'], topic);
+    }
+    assert.equal(topics.get('/Pioneer1/sonar/range_0')[0].type, 'sensor_msgs/msg/Range');
+  }
+  assert.match(robosim('replay', inFolder('humble.mcap'), '--check', 'worlds/small_maze.xml'), /[Tt]he same/);
+});
+
 test('a recorded file has the world, the seed and the digest', async () => {
   const reader = await openIndexed(inFolder('run.mcap'));
   assert.equal(reader.header.profile, 'ros2');

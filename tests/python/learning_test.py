@@ -132,6 +132,82 @@ class VectorEnvTest(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, f"has no sensor with the label 'radar'.*{labels[1]}"):
                 robot.readings("radar")
 
+    def test_observes_every_sensor_with_numbers_but_those_of_pictures(self):
+        sensors = ('<camera rate_hz="5"/><blob_finder><color name="gold" rgb="1 0.8 0.1"/></blob_finder>'
+                   '<range_and_bearing count="1"/><gripper/>')
+        world = robosim.World.parse(scene.text(2).replace("</robot>", f"<sensors>{sensors}</sensors></robot>"))
+        env = robosim.VectorEnv(world, observations=("range_and_bearing", "odometry"), random_starts=False)
+        robot, range_m, bearing_rad = env.reset()[0][0, :3]
+        self.assertEqual((robot, range_m), (1, 1))  # R2 is 1 m to the left of R1
+        self.assertAlmostEqual(bearing_rad, np.pi / 2, 6)
+        with self.assertRaisesRegex(robosim.ConfigError, "cannot observe 'blob_finder' in a learning environment, which takes "
+                                    r"no pictures of the model opengl; use <camera model=.raycast.>, or Simulation.readings"):
+            robosim.VectorEnv(world, observations="blob_finder")
+        with self.assertRaisesRegex(robosim.ConfigError, "robot 'R1' cannot observe 'camera'"):
+            robosim.VectorEnv(world, observations="camera")
+
+    def test_observes_the_pictures_of_raycast_cameras(self):
+        camera = ('<camera model="raycast" layers="rgb depth identity" width_px="32" height_px="24" z_m="0.2" x_m="0.3" '
+                  'range_max_m="6"/><blob_finder><color name="gold" rgb="1 0.8 0"/></blob_finder>')
+        world = robosim.World.parse(scene.text(1).replace("</robot>", f"<sensors>{camera}</sensors></robot>"))
+        env = robosim.VectorEnv(world, 2, observations=("camera", "odometry", "blob_finder"), random_starts=False, threads=2)
+        self.assertEqual(env.single_observation_space["camera"].shape, (24, 32, 3))
+        self.assertEqual(env.observation_space["camera_depth"].shape, (2, 24, 32))
+        seen, _ = env.reset(seed=1)
+        self.assertEqual({name: (array.dtype.name, array.shape) for name, array in seen.items()},
+                         {"camera": ("uint8", (2, 24, 32, 3)), "camera_depth": ("float32", (2, 24, 32)),
+                          "camera_identity": ("uint32", (2, 24, 32)), "numbers": ("float32", (2, 12))})
+        self.assertIn({name: array[0] for name, array in seen.items()}, env.single_observation_space)
+        # The gold of 0.2 m radius is 4 m from the robot, and 3.5 m before the camera. It glows.
+        self.assertEqual(seen["camera"][0, 12, 16].tolist(), [255, 204, 0])
+        self.assertEqual(seen["camera_identity"][0, 12, 16], 0)
+        self.assertAlmostEqual(float(seen["camera_depth"][0, 12, 16]), 3.51, delta=0.005)
+        self.assertEqual((seen["camera_identity"][0, 0, 0], seen["camera_depth"][0, 0, 0]), (2**32 - 1, 0))
+        self.assertGreater(seen["numbers"][0, 5], 3, "pixels of the gold")
+        near = env.step(np.array([[1, 0], [0, 0.5]]))[0]
+        self.assertTrue((near["camera"][0] != near["camera"][1]).any())
+        only = robosim.VectorEnv(world, 1, observations="camera", random_starts=False)
+        np.testing.assert_array_equal(only.reset(seed=1)[0]["camera"][0], seen["camera"][0])
+        self.assertNotIn("numbers", only.observation_space.keys())
+        agents = robosim.ParallelEnv(world, observations=("camera", "odometry"), random_starts=False)
+        observed = agents.reset(seed=1)[0]["R1"]
+        self.assertIn(observed, agents.observation_space("R1"))
+        np.testing.assert_array_equal(observed["camera"], seen["camera"][0])
+        with robosim.Simulation(world, controller="none") as simulation:
+            robot = simulation.robot("R1")
+            np.testing.assert_array_equal(robot.image, seen["camera"][0])
+            self.assertEqual(next(s for s in world.robots[0].sensors if s.kind == "camera").image_layers,
+                             ("rgb", "depth", "identity"))
+            np.testing.assert_array_equal(robot.depth_of(), seen["camera_depth"][0])
+            np.testing.assert_array_equal(robot.identity_of("camera"), seen["camera_identity"][0])
+
+    def test_agents_observe_pictures_of_their_own_cameras_only(self):
+        camera = '<sensors><camera model="raycast" width_px="8" height_px="6" z_m="0.2"/></sensors></robot>'
+        text = scene.text(2).replace("</robot>", camera, 1)
+        world = robosim.World.parse(text)
+        agents = robosim.ParallelEnv(world, observations=("camera", "odometry"), random_starts=False, max_steps=9)
+        self.assertEqual(sorted(agents.observation_space("R1").keys()), ["camera", "numbers"])
+        self.assertEqual(list(agents.observation_space("R2").keys()), ["numbers"])
+        observed = agents.reset(seed=1)[0]
+        self.assertIn(observed["R1"], agents.observation_space("R1"))
+        self.assertIn(observed["R2"], agents.observation_space("R2"))
+        robosim.check_env(agents, steps=20)
+        robosim.check_env(robosim.VectorEnv(world, 2, robots=2, observations=("camera", "odometry"), max_steps=9), steps=20)
+        robosim.check_env(robosim.VectorEnv(world, 2, observations="camera", max_steps=9), steps=20)
+
+    def test_refuses_cameras_whose_pictures_have_one_name(self):
+        def environment(*labels):
+            cameras = "".join(f'<camera model="raycast" layers="rgb depth" width_px="8" height_px="6" label="{label}"/>'
+                              for label in labels)
+            world = robosim.World.parse(scene.text(1).replace("</robot>", f"<sensors>{cameras}</sensors></robot>"))
+            return robosim.VectorEnv(world, observations=("odometry", *labels))
+
+        self.assertEqual(len(environment("left", "right").single_observation_space), 5)
+        with self.assertRaisesRegex(ValueError, "two parts of observations have the name 'eye_depth'; give the camera"):
+            environment("eye", "eye_depth")
+        with self.assertRaisesRegex(ValueError, "'numbers'"):
+            environment("numbers")
+
     def test_seeds_are_0_to_the_largest_number_of_64_bits(self):
         env = at_the_start()
         env.reset(seed=2**64 - 1)  # the second environment has the seed 0
@@ -327,6 +403,16 @@ class MixedTeamTest(unittest.TestCase):
 
 
 class ParallelEnvTest(unittest.TestCase):
+    def test_omnidirectional_agents_take_three_numbers(self):
+        builder = robosim.WorldBuilder(x_m=(-5, 5), y_m=(-5, 5))
+        world = builder.robot("mpo500", "A", 0, 0).build()
+        env = robosim.ParallelEnv(world, observations="pose", random_starts=False)
+        env.reset(seed=1)
+        self.assertEqual(env.action_space("A").shape, (3,))
+        for _ in range(20):
+            observations, *_ = env.step({"A": [0, 0, 1]})
+        self.assertGreater(observations["A"][1], 0.5)  # to the left
+
     def test_accepts_options_as_pettingzoo_requires_and_reports_steps(self):
         env = robosim.ParallelEnv(scene.world(2))
         start = {"step": 0, "time_s": 0, "gold_found": False}

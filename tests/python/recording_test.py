@@ -109,8 +109,19 @@ class PicturesTest(unittest.TestCase):
             image = simulation.robot(world.robots[0].name).image
             self.assertEqual((image.shape, image.dtype), ((120, 160, 3), np.uint8))
             self.assertGreater(image.std(), 5)  # more than the sky
+            name = world.robots[0].name
+            camera = next(sensor for sensor in world.robots[0].sensors if sensor.kind == "camera")
+            self.assertEqual((camera.image_shape, camera.field_of_view_rad > 0), ((120, 160, 3), True))
+            for same in (simulation.image(name), simulation.images()[name], simulation.image(name, camera.label),
+                         simulation.robot(name).image_of("camera")):
+                np.testing.assert_array_equal(same, image)
+            with self.assertRaisesRegex(ValueError, "no robot has the camera 'front'"):
+                simulation.images("front")
+            with self.assertRaisesRegex(ValueError, "takes no pictures; name a camera"):
+                simulation.image(name, "odometry")
             simulation.step()  # the camera's rate is lower than that of steps
-            self.assertIsNone(simulation.robot(world.robots[0].name).image)
+            self.assertIsNone(simulation.robot(name).image)
+            self.assertEqual(simulation.images(), {})
 
     def test_plans_are_arrays_and_documents_for_notebooks(self):
         world = scene.world(2)

@@ -39,6 +39,19 @@ class RemoteRobotsTest(unittest.TestCase):
             self.assertEqual(robots.step_count, 100)
             self.assertEqual(json.loads(server.finish())["digest"], simulation.digest)
 
+    def test_read_the_odometry_of_robots_with_and_without_a_lateral_speed(self):
+        drive = '<drive type="tracked" icr_x_m="0.05"/>'
+        text = scene.text().replace("</model>", f"</model>{drive}")
+        self.assertIn(drive, text)
+        with Serving(text) as server, robosim.Simulation(robosim.World.parse(text), controller="none") as simulation, \
+                robosim.RemoteRobots(server.address, ["R1", "R2"]) as robots:
+            # Only a robot that turns has a lateral speed.
+            for command in ([[0.2, 0], [0.2, 0]], [[0.2, 0.5], [0.2, 0]], [[0.2, 0.5], [0.2, 0.5]]):
+                robots.commands = simulation.commands = np.array(command)
+                robots.step()
+                simulation.step()
+                np.testing.assert_array_equal(robots.readings("odometry").astype(np.float32), simulation.readings("odometry"))
+
     def test_readings_are_views_that_keep_their_values(self):
         with Serving(scene.text()) as server, robosim.RemoteRobots(server.address, ["R1", "R2"]) as robots:
             robots.commands = [0.5, 0]

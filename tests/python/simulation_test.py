@@ -93,7 +93,7 @@ class InterventionTest(unittest.TestCase):
                     (lambda: simulation.add_cylinder("Gold", 5, 5, 1),
                      "there is a robot or an object named 'Gold' already; use another name"),
                     (lambda: simulation.change("Gold"),
-                     "<change>: changes nothing; give hot, color, height or reflectivity")):
+                     "<change>: changes nothing; give hot, color, height, reflectivity, light or fiducial")):
                 with self.assertRaises(ValueError) as raised:
                     call()
                 self.assertEqual(str(raised.exception), fault)
@@ -111,6 +111,81 @@ class InterventionTest(unittest.TestCase):
             for run in (simulation, fork):
                 run.step(10)
             self.assertEqual(simulation.digest, fork.digest)
+
+
+class SwarmTest(unittest.TestCase):
+    def test_robots_sense_floor_lights_and_leds_as_the_recording_repeats(self):
+        builder = robosim.WorldBuilder(x_m=(-2, 2), y_m=(-2, 2))
+        builder.cylinder("nest", 0, 0, radius_m=0.5, base_m=-0.01, height_m=0.01, color=(0.2, 0.2, 0.2))
+        builder.cylinder("lamp", 0, 1.2, radius_m=0.01, base_m=0.19, height_m=0.02, color=(1, 1, 0), light_cd=4, fiducial=7)
+        builder.robot("footbot", "A", 0, 0).robot("footbot", "B", 1, 0)
+        with tempfile.TemporaryDirectory() as folder:
+            world, rawlog = os.path.join(folder, "swarm.xml"), os.path.join(folder, "run.rawlog")
+            with open(world, "w", encoding="utf-8") as file:
+                file.write(builder.to_xml())
+            with robosim.Simulation(robosim.World.load(world), controller="none") as simulation:
+                simulation.record(rawlog)
+                self.assertEqual((simulation.objects[1].light_cd, simulation.objects[1].fiducial), (4, 7))
+                first, second = simulation.robot("A"), simulation.robot("B")
+                second.set_leds((1, 0, 0))
+                self.assertEqual(second.leds, (1, 0, 0))
+                simulation.step()
+                self.assertAlmostEqual(first.readings("ground")[0], 0.2, places=6)
+                self.assertEqual(second.readings("ground")[0], 1)
+                self.assertEqual(first.readings("omni_camera")[:6:3].tolist(), [0xff0000, 0xffff00])
+                brightest = first.readings("light").argmax()
+                self.assertIn(brightest, (5, 6), "7.5° to either side of straight left")
+                simulation.change("lamp", light_cd=0)
+                simulation.change("nest", color=(0, 0, 0))
+                second.drive(0.1, 0)
+                simulation.step(5)
+                self.assertEqual(first.readings("light").max(), 0)
+                self.assertEqual(first.readings("ground")[0], 0)
+                self.assertEqual(first.readings("omni_camera")[0], 0xff0000)
+                self.assertEqual(first.readings("omni_camera")[3], -1)
+                simulation.stop_recording()
+            check = subprocess.run([os.path.join(os.environ["ROBOSIM_PREFIX"], "bin", "robosim"), "replay", "--check", world, rawlog],
+                                   capture_output=True, text=True)
+            self.assertEqual((check.returncode, check.stdout.split(",")[0]), (0, "The same run: 6 steps"),
+                             check.stdout + check.stderr)
+
+
+class CameraHeadTest(unittest.TestCase):
+    def test_moves_with_limited_speed_as_the_recording_repeats(self):
+        builder = robosim.WorldBuilder(x_m=(-2, 2), y_m=(-2, 2))
+        builder.robot("p3dx_ptz", "A", 0, 0).robot("footbot", "B", 1.5, 0)
+        builder.cylinder("post", 0.12, 1.5, radius_m=0.1, height_m=1, color=(1, 0, 0))
+        with tempfile.TemporaryDirectory() as folder:
+            world, rawlog = os.path.join(folder, "camera.xml"), os.path.join(folder, "run.rawlog")
+            with open(world, "w", encoding="utf-8") as file:
+                file.write(builder.to_xml())
+            with robosim.Simulation(robosim.World.load(world), controller="none") as simulation:
+                simulation.record(rawlog)
+                robot, other = simulation.robot("A"), simulation.robot("B")
+                self.assertEqual(robot.camera_aim, (0, 0, 1))
+                self.assertIsNone(other.camera_aim)
+                robot.aim_camera(np.pi / 2, -0.1)
+                robot.zoom_camera(2)
+                robot.limit_camera_speed(1, 0)
+                simulation.step(5)
+                for value, expected in zip(robot.camera_aim, (0.5, -0.1, 2)):
+                    self.assertAlmostEqual(value, expected)
+                np.testing.assert_allclose(robot.readings("ptz"), (0.5, -0.1, 2), rtol=1e-6)
+                robot.limit_camera_speed(0, 0)
+                simulation.step(11)
+                self.assertEqual(robot.camera_aim[0], np.pi / 2)
+                picture = robot.image.astype(int)
+                is_red = (picture[..., 0] > 100) & (picture[..., 1] < 60)
+                self.assertTrue(is_red[120, 160], "the red post, which is to the left of the robot")
+                self.assertFalse(is_red[120, 40])
+                robot.stop_camera()
+                self.assertRaises(ValueError, robot.aim_camera, float("nan"), 0)
+                simulation.step()
+                simulation.stop_recording()
+            check = subprocess.run([os.path.join(os.environ["ROBOSIM_PREFIX"], "bin", "robosim"), "replay", "--check", world, rawlog],
+                                   capture_output=True, text=True)
+            self.assertEqual((check.returncode, check.stdout.split(",")[0]), (0, "The same run: 17 steps"),
+                             check.stdout + check.stderr)
 
 
 class StepTest(unittest.TestCase):
@@ -356,7 +431,7 @@ class MisuseTest(unittest.TestCase):
             robosim.Simulation(world, controllers={"R7": "wander"})
         with self.assertRaisesRegex(TypeError, "the controller of robot 'R1' must be the name of a controller"):
             robosim.Simulation(world, controllers={"R1": 5})
-        with self.assertRaisesRegex(ValueError, r"period_s must lie in \(0, 1\] seconds"):
+        with self.assertRaisesRegex(ValueError, r"period_s is 0.*; it must be a number of seconds in \(0, 1\]"):
             robosim.Simulation(world, period_s=0)
         with self.assertRaisesRegex(ValueError, "the number of steps is -1; it must be at least 0"):
             driven().step(-1)

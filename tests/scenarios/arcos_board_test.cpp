@@ -6,6 +6,7 @@
 #include "arcos/protocol/bytes.h"
 #include "arcos/protocol/command.h"
 #include "arcos/protocol/config_packet.h"
+#include "arcos/protocol/gyro_packet.h"
 #include "arcos/protocol/laser_packets.h"
 #include "arcos/protocol/simulator_packets.h"
 #include "arcos/protocol/sip.h"
@@ -111,6 +112,96 @@ TEST(ArcosBoard, GripsWhatIsBetweenItsPaddles) {
   const double dropped_x_m = can_x_m();
   program.steps(10);
   EXPECT_EQ(can_x_m(), dropped_x_m);
+}
+
+/// What a camera at AUX1 answers to a message, of which the program requests as many bytes as a hexadecimal text has.
+std::string cameraAnswer(BoardProgram& program, const std::string& message, const std::string& expected) {
+  program.packets.clear();
+  program.send(encodeCommand(command::getaux, static_cast<int>(arcos::fromHex(expected).size())));
+  program.send(encodeCommand(command::tty2, arcos::fromHex(message)));
+  const arcos::Packet* packet = program.packet(arcos::packet_type::aux);
+  return packet ? arcos::hex(packet->payload) : "none";
+}
+
+// The messages in the order in which ARIA's ArVCC4 sends them.
+TEST(ArcosBoard, MovesItsCameraByTheMessagesOfACanon) {
+  BoardProgram program("p3dx_ptz");
+  const auto sends = [&](const std::string& message, const std::string& expected) {
+    EXPECT_EQ(cameraAnswer(program, message, expected), expected) << message;
+  };
+  const auto aim = [&] { return program.robot.board().camera(); };
+  constexpr const char* kDone = "fe 30 30 30 30 ef";
+  sends("ff 30 30 00 58 30 ef", "fe 30 30 39 30 ef");  // not controlled by the program yet
+  sends("ff 30 30 00 a0 31 ef", kDone);                // power
+  sends("ff 30 30 00 90 30 ef", kDone);                // control
+  sends("ff 30 30 00 58 30 ef", kDone);                // init
+  sends("ff 30 30 00 50 31 36 34 ef", kDone);          // 356 units/s: 40.05 °/s
+  sends("ff 30 30 00 51 32 36 35 ef", kDone);          // 613 units/s: 69 °/s
+  sends("ff 30 30 00 64 31 37 45 46 35 38 33 30 45 ef", kDone);
+  sends("ff 30 30 00 62 38 31 39 30 37 46 41 37 ef", kDone);  // 45° to the right, 10° down
+  program.steps(5);
+  EXPECT_NEAR(aim().pan_rad, -20.025 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(aim().tilt_rad, -89 * 0.1125 * kRadPerDeg, 1e-9) << "in two steps";
+  // 178 units of pan.
+  sends("ff 30 30 00 63 ef", "fe 30 30 30 30 38 30 42 32 37 46 41 37 ef");
+  sends("ff 30 30 00 53 30 ef", kDone);  // stop
+  program.steps(3);
+  EXPECT_NEAR(aim().pan_rad, -20.025 * kRadPerDeg, 1e-9);
+  sends("ff 30 30 00 b3 30 33 44 34 ef", kDone);  // half of the zoom: from 1 to 8.5 at 5 per second
+  program.steps(10);
+  EXPECT_NEAR(aim().zoom, 6, 1e-9);
+  // 1960 · 5 / 15 is 653.
+  sends("ff 30 30 00 b4 30 ef", "fe 30 30 30 30 30 32 38 44 ef");
+  sends("ff 30 30 00 a2 30 ef", kDone);
+  program.steps(3);
+  EXPECT_NEAR(aim().zoom, 6, 1e-9);
+  sends("ff 30 30 00 b3 30 37 41 39 ef", "fe 30 30 35 30 ef");  // more than 1960
+  sends("ff 30 30 00 62 38 31 39 30 ef", "fe 30 30 35 30 ef");  // no tilt
+  sends("ff 30 30 00 a1 30 ef", kDone);                         // focus, without effect
+  sends("ff 30 30 00 a0 30 ef", kDone);                         // power off
+  sends("ff 30 30 00 62 38 30 30 30 38 30 30 30 ef", "fe 30 30 39 30 ef");
+}
+
+TEST(ArcosBoard, MovesItsCameraByVisca) {
+  BoardProgram program("p3dx_ptz");
+  constexpr const char* kDone = "90 41 ff 90 51 ff";
+  // 440 of 880 units: 50° to the right; 120 of 300 units: 10° up; 341 of 1023: a zoom of 6.
+  EXPECT_EQ(cameraAnswer(program, "81 01 06 02 18 14 00 01 0b 08 00 00 07 08 ff", kDone), kDone);
+  EXPECT_EQ(cameraAnswer(program, "81 01 04 47 00 01 05 05 ff", kDone), kDone);
+  program.steps(10);
+  const CameraAim aim = program.robot.board().camera();
+  EXPECT_NEAR(aim.pan_rad, -50 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(aim.tilt_rad, 10 * kRadPerDeg, 1e-9);
+  EXPECT_NEAR(aim.zoom, 6, 1e-9);
+  constexpr const char* kDirection = "90 50 00 01 0b 08 00 00 07 08 ff";
+  EXPECT_EQ(cameraAnswer(program, "81 09 06 12 ff", kDirection), kDirection);
+  constexpr const char* kZoom = "90 50 00 01 05 05 ff";
+  EXPECT_EQ(cameraAnswer(program, "81 09 04 47 ff", kZoom), kZoom);
+}
+
+TEST(ArcosBoard, HasNoCameraAtItsPortWithoutOne) {
+  BoardProgram program("p3dx");
+  EXPECT_EQ(cameraAnswer(program, "ff 30 30 00 a0 31 ef", "fe 30 30 30 30 ef"), "none");
+}
+
+TEST(ArcosBoard, SendsTheReadingsOfItsGyroUntilTheyAreSwitchedOff) {
+  BoardProgram program("p3dx_gyro");
+  program.send(encodeCommand(command::config));
+  const auto config = arcos::decodeConfig(*program.packet(arcos::packet_type::config));
+  ASSERT_TRUE(config);
+  EXPECT_TRUE(config->has_gyro);
+  program.send(encodeCommand(command::gyro, 1));
+  program.send(encodeCommand(command::rvel, 50));
+  program.steps(10);  // 100 °/s² in steps of 0.1 s
+  program.packets.clear();
+  program.steps(1);
+  const arcos::Packet* packet = program.packet(arcos::packet_type::gyro);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(arcos::encode(packet->id, packet->payload), arcos::encodeGyro(50 * M_PI / 180));
+  program.send(encodeCommand(command::gyro, 0));
+  program.packets.clear();
+  program.steps(1);
+  EXPECT_FALSE(program.packet(arcos::packet_type::gyro));
 }
 
 TEST(ArcosBoard, WithoutAGripperSaysSo) {
@@ -437,7 +528,29 @@ TEST(ArcosBoard, AnswersARequestToLoadAMapByTheMapInUse) {
   EXPECT_EQ(map.take<std::uint8_t>(), 0) << "not by an operator";
   EXPECT_EQ(map.take<std::uint8_t>(), 0) << "no other map is loaded";
   EXPECT_EQ(map.takeText(), "here.map");
-  EXPECT_NE(program.robot.log_text.find("a map is not loaded for a program"), std::string::npos);
+  EXPECT_EQ(program.robot.asked_map, "other.map");
+}
+
+TEST(ArcosBoard, LeavesTheAnswerToARequestForAMapToASimulatorThatLoadsIt) {
+  BoardProgram program;
+  program.robot.loads_maps = true;
+  arcos::ByteWriter request;
+  request.add(std::uint8_t{0x2B}).add(arcos::sim_operation::load_map).add(std::uint16_t{9}).addText("other.map");
+  program.send(arcos::encode(command::sim_control, request.bytes()));
+  EXPECT_EQ(program.robot.asked_map, "other.map");
+  EXPECT_FALSE(program.packet(arcos::packet_type::sim_map));
+}
+
+TEST(ArcosBoard, SendsNoScansOfALaserThatTheRobotHasNot) {
+  BoardProgram program("p3dx", {}, 5);
+  for (const std::uint8_t laser : {1, 9}) {
+    arcos::ByteWriter enable;
+    enable.add(std::uint8_t{0x3B}).add(std::uint16_t{2}).add(laser);
+    program.send(arcos::encode(command::laser_enable, enable.bytes()));
+  }
+  program.packets.clear();
+  program.stepWithScan();
+  EXPECT_FALSE(program.packet(arcos::packet_type::laser_extended)) << "a p3dx has one laser";
 }
 
 TEST(ArcosBoard, IgnoresUnknownCommandsAndWrongArguments) {

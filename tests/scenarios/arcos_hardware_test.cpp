@@ -97,6 +97,17 @@ TEST(ArcosHardware, ReportsWhatTheRobotSensesInTheUnitsOfSimulatedRobots) {
   EXPECT_FALSE(hardware.readings().stalled);
 }
 
+TEST(ArcosHardware, LeavesTheLaserOfASimulatorOffOnRequest) {
+  SimulatedArcosRobot robot;
+  ArcosHardware::Options options = robot.options();
+  options.requests_laser = false;
+  ArcosHardware hardware(robot.channel(), std::move(options));
+  ASSERT_TRUE(hardware.nextStep());
+  EXPECT_EQ(robot.session().lasers()[0].form, arcos::LaserRequest::Form::off);
+  for (const SensorInfo& sensor : *hardware.info().sensors) EXPECT_NE(sensor.kind, SensorKind::laser);
+  EXPECT_NE(robot.log_text.find("laser"), std::string::npos) << "it is listed as not available: " << robot.log_text;
+}
+
 TEST(ArcosHardware, LogsTheSensorsThatTheRobotLacks) {
   SimulatedArcosRobot robot("pioneer3dx");
   ArcosHardware hardware(robot.channel(), robot.options());

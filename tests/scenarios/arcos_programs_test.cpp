@@ -1,6 +1,8 @@
 // `robosim arcos` with programs that connect to it: their runs, recordings and arguments.
 #include <array>
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -11,8 +13,13 @@
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
 
+#include "arcos/client/arcos_client.h"
+#include "arcos/client/open_channel.h"
+#include "arcos/protocol/bytes.h"
+#include "arcos/protocol/camera_messages.h"
 #include "arcos/protocol/command.h"
 #include "arcos/protocol/packet.h"
+#include "arcos/protocol/simulator_packets.h"
 #include "arcos/protocol/sip.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/wait.h"
@@ -38,6 +45,66 @@ TEST(ArcosPrograms, OnAMapAreRepeatedFromTheRecordingAndTheMap) {
   const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
   EXPECT_EQ(check.exit_code, 0) << check.err;
   EXPECT_TRUE(check.out.starts_with("The same run: ")) << check.out;
+}
+
+TEST(ArcosPrograms, LoadMapsThatLieBesideTheOneInUse) {
+  const auto folder = emptyFolder();
+  for (const char* name : {"a.map", "b.map"}) {
+    std::filesystem::copy_file(ROBOSIM_SOURCE_DIR "/maps/office.map", folder / name);
+  }
+  std::ofstream(folder / "no.map") << "2D-Map\nLINES\n1 2 3\n";
+  StartedProgram server(
+      {"arcos", (folder / "a.map").string(), "--port", "18441", "--listen", "127.0.0.1:0", "--speed", "20"});
+  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18441");
+  const auto channel = openChannel("tcp:127.0.0.1:18441");
+  ArcosClient client;
+  arcos::PacketReader reader;
+  const auto receive = [&] {
+    const std::string bytes = channel->read(std::chrono::milliseconds(10));
+    reader.add(bytes);
+    if (const auto answer = client.receive(bytes, channel->now()); !answer.empty()) channel->write(answer);
+  };
+  waitUntil("the session is open", [&] {
+    receive();
+    return client.isReady();
+  });
+  const auto answer_to = [&](const std::string& file) {
+    arcos::ByteWriter request;
+    request.add(std::uint8_t{0x2B}).add(arcos::sim_operation::load_map);
+    request.add(static_cast<std::uint16_t>(file.size())).addText(file);
+    channel->write(arcos::encode(command::sim_control, request.bytes()));
+    std::string answer;
+    waitUntil("the answer arrives", [&] {
+      receive();
+      while (const auto packet = reader.next()) {
+        if (packet->id != arcos::packet_type::sim_map) continue;
+        arcos::ByteReader bytes(packet->payload);
+        bytes.take<std::uint8_t>();
+        answer = bytes.take<std::uint8_t>() != 0 ? "loaded " : "not loaded ";
+        answer += bytes.takeText();
+      }
+      return !answer.empty();
+    });
+    return answer;
+  };
+  EXPECT_EQ(answer_to("b.map"), "loaded b.map");
+  EXPECT_EQ(answer_to("none.map"), "not loaded b.map");
+  EXPECT_EQ(answer_to("no.map"), "not loaded b.map");
+  EXPECT_EQ(answer_to("lab.yaml"), "loaded lab.yaml") << "of the maps of RoboSim";
+  const std::uint64_t before = client.sips();
+  waitUntil("the session continues", [&] {
+    receive();
+    return client.sips() > before + 5;
+  });
+  server.interrupt();
+  const Ended ended = server.wait();
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_NE(ended.err.find("the map none.map is not loaded: there is no such file beside the map in use"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_NE(ended.err.find("no.map:3: '1 2 3' is not a wall"), std::string::npos) << ended.err;
+  EXPECT_NE((ended.out + ended.err).find("ended by an ARCOS program, which has loaded another map"), std::string::npos)
+      << ended.out;
 }
 
 TEST(ArcosPrograms, EachGetARobotThatIsAddedForThemAndAreRepeatedFromTheRecording) {
@@ -88,7 +155,7 @@ TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
   const Ended odometry =
       runProgram("replay --print --csv --robot robot --sensor odometry " + quoted(folder / "run.rawlog"));
   EXPECT_EQ(odometry.exit_code, 0) << odometry.err;
-  EXPECT_TRUE(odometry.out.ends_with(",0,1e-06\n")) << odometry.out.substr(odometry.out.size() - 200);
+  EXPECT_TRUE(odometry.out.ends_with(",0,1e-06,0\n")) << odometry.out.substr(odometry.out.size() - 200);
   const Ended replay = runProgram("robot --arcos replay:" + quoted(folder / "arcos.log") + " --controller wander");
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   // The log also has the cycles in which the robot came to rest at the end.
@@ -156,6 +223,54 @@ TEST(ArcosPrograms, ThatPlaceTheirRobotMakeARunThatIsRepeated) {
   server.interrupt();
   const Ended ended = server.wait();
   EXPECT_NE(ended.out.find("interventions  1\n"), std::string::npos) << ended.out;
+  const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+  EXPECT_TRUE(check.out.starts_with("The same run: ")) << check.out;
+}
+
+// The program turns the camera 45° to the right, and asks where it is until it is there.
+TEST(ArcosPrograms, ThatTurnACameraMakeARunThatIsRepeated) {
+  const auto rawlog = emptyFolder() / "run.rawlog";
+  StartedProgram server({"arcos", "maps/office.map", "-r", "p3dx_ptz", "--port", "18437", "--listen", "127.0.0.1:0",
+                         "--speed", "5", "--record", rawlog.string()});
+  server.waitForError("robot Robot1 (p3dx_ptz) for ARCOS programs on 127.0.0.1:18437");
+  boost::asio::io_context io;
+  tcp::socket socket(io);
+  socket.connect({boost::asio::ip::address_v4::loopback(), 18437});
+  arcos::PacketReader reader;
+  const auto send = [&](const std::string& bytes) { boost::asio::write(socket, boost::asio::buffer(bytes)); };
+  const auto next = [&] {
+    for (;;) {
+      if (auto packet = reader.next()) return *packet;
+      std::array<char, 4096> bytes;
+      reader.add({bytes.data(), socket.read_some(boost::asio::buffer(bytes))});
+    }
+  };
+  const auto next_of = [&](std::uint8_t type) {
+    for (;;) {
+      if (const auto packet = next(); packet.id == type) return packet.payload;
+    }
+  };
+  const auto ask = [&](std::uint8_t id, const std::string& parameters, int bytes) {
+    send(encodeCommand(command::getaux, bytes) + encodeCommand(command::tty2, arcos::vcc4::encode({id, parameters})));
+    return next_of(arcos::packet_type::aux);
+  };
+  for (const auto id : {command::sync0, command::sync1, command::sync2}) {
+    send(encodeCommand(id));
+    next();
+  }
+  send(encodeCommand(command::open, 1));
+  namespace camera = arcos::vcc4::command;
+  ask(camera::control, "0", 6);
+  ask(camera::turn_to, "81908000", 6);
+  ask(camera::zoom_to, "00C8", 6);
+  while (ask(camera::direction_request, "", 14).substr(5, 8) != "81908000") next_of(arcos::packet_type::sip_standing);
+  socket.close();
+  server.interrupt();
+  EXPECT_EQ(server.wait().exit_code, 0);
+  const Ended head = runProgram("replay --print --csv --robot Robot1 --sensor ptz " + quoted(rawlog));
+  EXPECT_EQ(head.exit_code, 0) << head.err;
+  EXPECT_NE(head.out.find("-0.785398"), std::string::npos) << head.out.substr(0, 500);
   const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
   EXPECT_TRUE(check.out.starts_with("The same run: ")) << check.out;

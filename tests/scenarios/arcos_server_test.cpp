@@ -12,6 +12,7 @@
 
 #include "arcos/protocol/bytes.h"
 #include "arcos/protocol/command.h"
+#include "arcos/protocol/laser_packets.h"
 #include "arcos/protocol/simulator_packets.h"
 #include "arcos/protocol/sip.h"
 #include "base/angle_units.h"
@@ -298,6 +299,121 @@ TEST(ArcosServer, AnswersARequestToLoadAMap) {
   request.add(std::uint8_t{0x2B}).add(arcos::sim_operation::load_map).add(std::uint16_t{9}).addText("other.map");
   program.send(arcos::encode(command::sim_control, request.bytes()));
   EXPECT_EQ(program.next().id, arcos::packet_type::sim_map);
+}
+
+std::string loadMapCommand(const std::string& file) {
+  arcos::ByteWriter request;
+  request.add(std::uint8_t{0x2B}).add(arcos::sim_operation::load_map);
+  request.add(static_cast<std::uint16_t>(file.size())).addText(file);
+  return arcos::encode(command::sim_control, request.bytes());
+}
+
+/// The next SIM_MAP_CHANGED that a program receives: "not loaded here.map".
+std::string nextMap(TcpProgram& program) {
+  arcos::Packet packet = program.next();
+  while (packet.id != arcos::packet_type::sim_map && !program.hasEnded()) packet = program.next();
+  arcos::ByteReader bytes(packet.payload);
+  bytes.take<std::uint8_t>();  // whether an operator has loaded it
+  const bool is_loaded = bytes.take<std::uint8_t>() != 0;
+  return (is_loaded ? "loaded " : "not loaded ") + bytes.takeText();
+}
+
+TEST(ArcosServer, ContinuesTheSessionsOfProgramsWithTheRobotsOfAMapThatOneHasLoaded) {
+  ServedRobots served(rowOfRobots(2), false, "maps/here.map");
+  TcpProgram first(served, served.server->ports()[0]), second(served, served.server->ports()[1]);
+  first.open();
+  second.open();
+  first.send(encodeCommand(command::vel, 300));
+  for (int i = 0; i < 10; ++i) first.step();
+  second.step();
+  first.send(loadMapCommand("/home/anyone/there.map"));
+  std::optional<std::string> request;
+  waitUntil("the request arrives", [&] {
+    served.server->poll();
+    request = served.server->takeMapRequest();
+    return request.has_value();
+  });
+  EXPECT_EQ(*request, "there.map") << "a file beside the map, wherever the program has it";
+  EXPECT_FALSE(served.server->takeMapRequest()) << "it is being loaded";
+  ServedRobots next(rowOfRobots(2), false, "maps/there.map");
+  next.server->takePrograms(*served.server);
+  served.server = std::move(next.server);
+  served.environment.swap(next.environment);
+  EXPECT_EQ(served.server->clients(), 2u);
+  EXPECT_EQ(nextMap(first), "loaded there.map");
+  EXPECT_EQ(nextMap(second), "loaded there.map");
+  const arcos::Sip sip = first.step();
+  EXPECT_EQ(sip.x, 0) << "at the start, with odometry 0";
+  EXPECT_EQ(sip.speed_left, 0);
+  first.send(encodeCommand(command::vel, 300));
+  EXPECT_EQ(first.step().speed_left, 30) << "it drives the robot on the new map";
+}
+
+TEST(ArcosServer, AnswersProgramsWhoseMapIsRefusedByTheMapInUse) {
+  ServedRobots served(rowOfRobots(1), false, "maps/here.map");
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  program.send(loadMapCommand("here.map"));
+  EXPECT_EQ(nextMap(program), "not loaded here.map") << "it is in use";
+  EXPECT_FALSE(served.server->takeMapRequest());
+  program.send(loadMapCommand("there.map"));
+  waitUntil("the request arrives", [&] {
+    served.server->poll();
+    return served.server->takeMapRequest().has_value();
+  });
+  program.send(loadMapCommand("third.map"));
+  EXPECT_EQ(nextMap(program), "not loaded here.map") << "another one is being loaded";
+  served.server->refuseMap("there.map:3: is no wall");
+  EXPECT_EQ(nextMap(program), "not loaded here.map");
+  EXPECT_NE(served.log.find("the map there.map is not loaded: there.map:3: is no wall"), std::string::npos)
+      << served.log;
+}
+
+TEST(ArcosServer, MeasuresTheSecondLaserOfATypeAndTheReflectanceOfReflectors) {
+  // The first robot has lasers at its centre and 0.5 m behind it; a reflector is 2 m ahead, a wall 3 m to the left.
+  LoadedWorld made{emptyWorld(20), {}};
+  addWall(made.world, 2.1, 0, 0.2, 1);
+  made.world.objects.back().body.reflectivity = 0.95;
+  addWall(made.world, 0, 3.1, 1, 0.2);
+  const std::string type =
+      "<robot name='two' help='Two lasers.'><body radius_m='0.2' height_m='0.3'/>"
+      "<limits speed_max_mps='1' accel_mps2='1' decel_mps2='1' turn_max_degps='90' turn_accel_degps2='90'/>"
+      "<arcos subclass='p3dx'/><sensors><odometry/><laser z_m='0.2'/><laser label='rear' x_m='-0.5' z_m='0.2'/>"
+      "</sensors></robot>";
+  FleetRobot robot = robotOfType({{"two", {"two.xml", type}}}, "two");
+  made.fleet.robots.push_back(robot);
+  ServedRobots served(std::move(made));
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  std::string commands;
+  for (const std::uint8_t laser : {0, 1}) {
+    const auto request = [&](std::uint8_t id, std::uint16_t number) {
+      arcos::ByteWriter bytes;
+      bytes.add(std::uint8_t{0x3B}).add(number).add(laser);
+      commands += arcos::encode(id, bytes.bytes());
+    };
+    request(command::laser_start, 0);
+    request(command::laser_end, 90);
+    request(command::laser_resolution, 9000);
+    request(command::laser_enable, 2);
+  }
+  program.send(commands);
+  program.step();
+  for (const std::uint8_t laser : {0, 1}) {
+    const arcos::Packet packet = program.next();
+    ASSERT_EQ(packet.id, arcos::packet_type::laser_extended);
+    arcos::ByteReader bytes(packet.payload);
+    EXPECT_EQ(bytes.take<std::uint16_t>(), 2) << "ahead and to the left";
+    bytes.take<std::uint16_t>();
+    bytes.take<std::uint8_t>();
+    EXPECT_NEAR(bytes.take<std::uint16_t>(), 2000 + 500 * laser, 1);
+    EXPECT_EQ(bytes.take<std::uint8_t>(), arcos::kReflector);
+    bytes.take<std::uint16_t>();
+    EXPECT_NEAR(bytes.take<std::uint16_t>(), 3000, 1);
+    EXPECT_EQ(bytes.take<std::uint8_t>(), 0);
+    bytes.take<std::uint16_t>();
+    EXPECT_EQ(bytes.take<std::uint8_t>(), laser);
+  }
 }
 
 TEST(ArcosServer, PlacesARobotOnlyWhereItIsFree) {

@@ -87,12 +87,13 @@ TEST_F(AriaExamples, DriveARobotOfAServerAsInProcess) {
   EXPECT_EQ(served["digest"], summaryOf("--controller aria_goto --time 120")["digest"]);
 }
 
-// The simulated robot behind its ARCOS port, as a real one behind its serial line.
+// The simulated robot behind its ARCOS port, as a real one behind its serial line: in real time, so that what delays
+// the program by a second makes it pass its goal by five times the way of a second.
 TEST_F(AriaExamples, DriveARobotThroughArcos) {
   for (const std::string controller : {"aria_wander", "aria_goto"}) {
     StartedProgram serve(installed_->program().string(),
                          {"serve", (installed_->folder() / "room.xml").string(), "--listen", ":0", "--arcos", "0",
-                          "--arcos-all", "--speed", "10", "--time", "120", "--json"});
+                          "--arcos-all", "--speed", "5", "--time", "80", "--json"});
     const std::string announcement = "robot Pioneer (pioneer3dx) for ARCOS programs on ";
     serve.waitForError("listening on ");
     const std::string log = serve.error();
@@ -106,7 +107,7 @@ TEST_F(AriaExamples, DriveARobotThroughArcos) {
     const Ended ended = robot.wait();
     EXPECT_EQ(summary["stalls"], 0) << controller;
     if (controller == "aria_wander") {
-      EXPECT_GT(summary["driven_m"], 20);
+      EXPECT_GT(summary["driven_m"], 13);
     } else {  // to its four goals, and then it stands
       EXPECT_EQ(ended.exit_code, 0) << ended.err;
       EXPECT_GT(summary["driven_m"], 4 * 2.5 - 1);

@@ -1,4 +1,5 @@
-// `robosim_bench camera`, `view`, `network`, `recording` and `maps` with small loads.
+// `robosim_bench camera`, `raycast`, `view`, `network`, `recording` and `maps` with small loads.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -25,6 +26,20 @@ TEST(BenchCamera, ReportsPicturesPerSecondForEachSize) {
     EXPECT_GT(figures["bytes"], 500.0);
   }
   EXPECT_EQ(widths, (std::vector<int>{160, 320, 320, 640})) << "of 320 also antialiased";
+}
+
+TEST(BenchRaycast, ReportsPicturesAndBeamsPerSecond) {
+  const Ended bench = runBenchmark("raycast --min-time 1e-3 --json");
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  std::vector<std::string> units;
+  std::istringstream lines(bench.out);
+  for (std::string line; std::getline(lines, line);) {
+    const json figures = json::parse(line);
+    units.push_back(figures["unit"]);
+    EXPECT_GT(figures["per_cpu_s"], 0.0);
+  }
+  EXPECT_EQ(std::count(units.begin(), units.end(), "pictures"), 5);
+  EXPECT_EQ(std::count(units.begin(), units.end(), "beams"), 2);
 }
 
 TEST(BenchRecording, ReportsTheSameRunWithAndWithoutARecording) {

@@ -81,8 +81,8 @@ TEST(Check, PrintsTheErrorsOfSensorsAndRadioWithAllSettings) {
     EXPECT_NE(out.find("sonar: noise polaroid; dropout 0.05; by default std_m 0, std_per_m 0.01,"), std::string::npos)
         << out;
     EXPECT_NE(out.find("robot_crosstalk 0.02, firing_interval_s 0, array 8\n"), std::string::npos) << out;
-    EXPECT_NE(out.find("  laser: latency_s 0.2; by default sweep_s 0, interlace_s 0, latency_std_s 0, latency_tail 0, "
-                       "latency_tail_factor 3, rate_hz 0, phase_s 0\n"),
+    EXPECT_NE(out.find("  laser: latency_s 0.2; by default sweep_s 0, latency_std_s 0, latency_tail 0, "
+                       "latency_tail_factor 3, rate_hz 0, phase_s 0, interlace_s 0\n"),
               std::string::npos)
         << out;
     EXPECT_NE(out.find("  laser: noise lms200; at (range_m 1, std_m 0.01), at (range_m 9, std_m 0.02), rate_hz 5; by "

@@ -50,7 +50,8 @@ struct RequestedRun final : RunSource {
             .may_restart = true,
             .recording = {.state = RecordingView::State::off, .may_change = true}};
   }
-  void restart() override { is_restarted = true; }
+  void restart(bool) override { is_restarted = true; }
+  void resume() override {}
   void setRecording(bool on) override { is_recorded = on; }
   std::atomic<bool> is_restarted{false}, is_recorded{false};
 };
@@ -163,6 +164,10 @@ const std::map<std::string, Example>& examples() {
        {R"({"type":"switch","robot":"Bob"})", [](Team&, TestPage& p) { return primaryOf(p) == "Bob"; }}},
       {"play_again", {R"({"type":"play_again"})", [](Team& t, TestPage&) { return t.run.is_restarted.load(); }}},
       {"record", {R"({"type":"record","on":true})", [](Team& t, TestPage&) { return t.run.is_recorded.load(); }}},
+      {"join", {R"({"type":"join"})", nullptr}},
+      {"leave", {R"({"type":"leave"})", nullptr}},
+      {"start", {R"({"type":"start"})", nullptr}},
+      {"skip", {R"({"type":"skip"})", nullptr}},
       {"req_heat", {R"({"type":"req_heat"})", answers("heat")}},
       {"req_laser", {R"({"type":"req_laser"})", answers("laser")}},
       {"req_sonar",

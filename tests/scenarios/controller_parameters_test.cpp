@@ -108,7 +108,7 @@ TEST_F(ChosenControllers, AreListedWithDefaultBoundsUnitAndHelp) {
 
 TEST_F(ChosenControllers, SensorsAreListedWithTheirSettings) {
   const json all = json::parse(runProgram("sensors --json").out);
-  EXPECT_EQ(all.size(), 13u);
+  EXPECT_EQ(all.size(), 21u);
   for (const auto& sensor : all) EXPECT_FALSE(sensor["settings"].empty()) << sensor["name"];
   const Ended laser = runProgram("sensors laser");
   EXPECT_NE(laser.out.find("range_max_m"), std::string::npos) << laser.out;

@@ -152,9 +152,18 @@ TEST_F(ErrorTexts, NameTheKindOfAFileOfAnotherProgram) {
              "plan.bmp: is a picture in the format BMP: ");
   expectLine(refusal("replay " + quoted(written("stage.world", "define wall model ( size [1 1 1] )\n"))),
              "stage.world: is a world of Stage: ");
-  expectLine(refusal("replay " + quoted(written("log.clf", "# CARMEN log\nFLASER 1 1.0\n"))),
-             "log.clf: is a CARMEN log: convert it by MRPT's carmen2rawlog; robosim replay takes the result");
-  expectLine(refusal("replay " + quoted(written("a.bt", "# Octomap OcTree binary file\n"))), "a.bt: is an OctoMap: ");
+  for (const std::string command : {"run ", "check ", "serve ", "arcos ", "bench gold "}) {
+    expectLine(refusal(command + quoted(written("log.clf", "# CARMEN log\nODOM 0 0 0 0 0 0\n"))),
+               "log.clf: is a CARMEN log: robosim replay, view, export and fit take it");
+  }
+  expectLine(refusal("replay " + quoted(written("a.bt", "# Octomap OcTree binary file\n"))),
+             "a.bt: is a map (.bt or .ot of OctoMap): robosim run, serve, check, view, export and arcos take it");
+  expectLine(refusal("run " + quoted(written("a.map", "# Octomap OcTree binary file\n"))),
+             "a.map: is a map (.bt or .ot of OctoMap), so that its name must end in .bt or .ot; rename it");
+  expectLine(refusal("replay " + quoted(written("a.simplemap",
+                                                "\x8a"
+                                                "CSimpleMap\x01"))),
+             "a.simplemap: is a map (.simplemap of MRPT): robosim run, serve, check, view, export and arcos take it");
   for (const std::string command : {"run ", "check ", "serve ", "arcos ", "bench gold ", "robot R --map "}) {
     const std::string text = refusal(command + quoted(written("b.rawlog",
                                                               "\x8d"
@@ -346,8 +355,9 @@ TEST(Options, AreRefusedWithoutTheirPartners) {
       const auto given = arguments.find(command);
       ASSERT_NE(given, arguments.end()) << "arguments of a command that this test does not know: " << command << " "
                                         << option.name << option.help;
-      // The figure of the others has layers that may be hidden; a map has none.
-      const bool hides = command == "export" && option.name == "--hide";
+      // The figure of the others has layers and robots; a map has none.
+      const bool hides =
+          command == "export" && (option.name == "--hide" || option.name == "--show" || option.name == "--only");
       const std::string line = command + " " +
                                (hides ? "worlds/small_maze.xml " + (folder / "a.bt").string() : given->second) + " " +
                                option.name + valueOf(option);

@@ -85,6 +85,24 @@ TEST_F(Installation, NamesTheFoldersSearchedForAnUnknownRobotType) {
       << ended.out;
 }
 
+TEST_F(Installation, ReportsAMissingLibraryBeforeTheRunWithItsPackage) {
+  // As where only the package of the engine is installed
+  const fs::path library = prefix() / "lib" / ("librobosim-program.so." ROBOSIM_SOVERSION);
+  fs::rename(library, *folder_ / "hidden");
+  const std::string error =
+      "cannot load the library for maps, recordings, pictures and replays (librobosim-program.so." ROBOSIM_SOVERSION
+      ": cannot open shared object file: No such file or directory); install the package "
+      "librobosim-extra" ROBOSIM_SOVERSION ", or RoboSim again";
+  EXPECT_EQ(run("run small_maze --time 1").exit_code, 0);
+  for (const std::string& arguments : {"run small_maze --time 1 --record " + quoted(*folder_ / "missing.rawlog"),
+                                       std::string("check lab_map"), std::string("export small_maze --help")}) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_NE((ended.out + ended.err).find(error), std::string::npos) << arguments << ": " << ended.out << ended.err;
+  }
+  fs::rename(*folder_ / "hidden", library);
+}
+
 TEST_F(Installation, StartsEachOfItsExecutables) {
   EXPECT_EQ(run("--version").exit_code, 0);
   for (const char* subcommand : {"run", "serve", "view"}) {
@@ -120,8 +138,8 @@ TEST_F(Installation, AWheelHasItsLibrariesBesideTheExtensionAndFindsThemThere) {
       ROBOSIM_CMAKE " --install '" ROBOSIM_BUILD_DIR "' --component robosim-wheel --prefix " + quoted(wheel));
   ASSERT_EQ(installed.exit_code, 0) << installed.err;
   const Ended paths = runCommand("find " + quoted(wheel) + " -name '*.so*' -exec readelf --dynamic {} +");
-  EXPECT_EQ(countOf("Library runpath: [", paths.out), 6u) << "the extension and five libraries\n" << paths.out;
-  EXPECT_EQ(countOf("Library runpath: [$ORIGIN:$ORIGIN/robosim]", paths.out), 5u) << "beside, and its codecs\n"
+  EXPECT_EQ(countOf("Library runpath: [", paths.out), 7u) << "the extension and six libraries\n" << paths.out;
+  EXPECT_EQ(countOf("Library runpath: [$ORIGIN:$ORIGIN/robosim]", paths.out), 6u) << "beside, and its codecs\n"
                                                                                   << paths.out;
   EXPECT_EQ(countOf(":$ORIGIN]", paths.out), 1u) << "the extension also names the folder of an installation\n"
                                                  << paths.out;

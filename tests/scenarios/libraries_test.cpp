@@ -15,18 +15,23 @@
 namespace robosim {
 namespace {
 
-/// Names of all shared libraries that an executable in the program's folder loads, one per line.
-std::string librariesOf(const std::string& executable) {
-  const auto folder = std::filesystem::path(ROBOSIM_PROGRAM).parent_path();
-  const Ended ldd = runCommand("ldd '" + (folder / executable).string() + "'");
+/// Names of all shared libraries that a file loads, one per line.
+std::string librariesLoadedBy(const std::filesystem::path& file) {
+  const Ended ldd = runCommand("ldd " + quoted(file));
   EXPECT_EQ(ldd.exit_code, 0) << ldd.err;
   EXPECT_NE(ldd.out.find("libstdc++"), std::string::npos) << ldd.out;
   return ldd.out;
 }
 
+/// The same of an executable in the program's folder.
+std::string librariesOf(const std::string& executable) {
+  return librariesLoadedBy(std::filesystem::path(ROBOSIM_PROGRAM).parent_path() / executable);
+}
+
 /// RoboSim's shared libraries, lowest first. Each may need only libraries before it.
-constexpr std::array kLibraries{"robosim",         "robosim-maps",    "robosim-recording", "robosim-rendering",
-                                "robosim-program", "robosim-serving", "robosim-devices",   "robosim-viewing"};
+constexpr std::array kLibraries{"robosim",           "robosim-main",      "robosim-maps",
+                                "robosim-recording", "robosim-rendering", "robosim-program",
+                                "robosim-serving",   "robosim-devices",   "robosim-viewing"};
 /// The libraries of others that the engine needs, besides those of the language and of sanitizers.
 const std::set<std::string> kNeededByEngine{"expat", "fmt",      "jpeg",   "mrpt-core", "spdlog",
                                             "tbb",   "tinyxml2", "xxhash", "z"};
@@ -69,11 +74,35 @@ TEST(Libraries, OfHelpAndVersionAreThoseOfTheLanguage) {
   EXPECT_FALSE(loads(librariesOf("robosim"), "mrpt|opencv|grpc|protobuf|glfw|nanogui|OpenGL|boost|ssl"));
 }
 
+TEST(Libraries, OfARunWithoutFilesAreThoseOfTheEngine) {
+  const std::string libraries = librariesOf("robosim-run");
+  EXPECT_FALSE(
+      loads(libraries, "mrpt-(obs|maps|img|opengl)|opencv|cairo|OpenGL|octomap|sqlite|crypto|robosim-(?!main)"))
+      << libraries;
+}
+
 TEST(Libraries, OfSubcommandsWithoutNetworkIncludeNeitherGrpcNorWindows) {
-  for (const char* subcommand : {"run", "check", "replay", "export", "bench"}) {
-    EXPECT_FALSE(loads(librariesOf(subcommandNamed(subcommand)->part), "grpc|protobuf|glfw|nanogui|mrpt-gui"))
-        << subcommand;
+  EXPECT_FALSE(loads(librariesLoadedBy(fileOf("robosim-program")), "grpc|protobuf|glfw|nanogui|mrpt-gui"));
+}
+
+/// Names of libraries of MRPT's observations and of OpenCV that a command has loaded.
+std::string loadedBy(const std::string& command) {
+  const Ended ended = runCommand("LD_DEBUG=files " + command);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  std::string names;
+  const std::regex loaded(R"(calling init: \S*/lib((?:mrpt-obs|opencv_core|robosim-program)\.so))");
+  for (std::sregex_iterator found(ended.err.begin(), ended.err.end(), loaded), end; found != end; ++found) {
+    names += found->str(1) + ' ';
   }
+  return names;
+}
+
+TEST(Libraries, OfMapsAndRecordingsAreLoadedWhenOneIsReadOrWritten) {
+  const auto folder = emptyFolder();
+  const std::string run = quoted(ROBOSIM_PROGRAM) + " run --time 0.1 ";
+  EXPECT_EQ(loadedBy(run + "worlds/small_maze.xml"), "");
+  EXPECT_NE(loadedBy(run + "worlds/small_maze.xml --record " + quoted(folder / "run.rawlog")), "");
+  EXPECT_NE(loadedBy(run + "worlds/lab_map.xml"), "");
 }
 
 TEST(Libraries, OfSubcommandsWithANetworkIncludeNeitherWindowsNorDrivers) {
@@ -88,7 +117,7 @@ TEST(Libraries, OfWindowsAreThoseOfNanoguiAndOfNoOtherToolkit) {
 
 TEST(Libraries, ThatForwardsToOpenCvsPictureCodecsHasAllTheirFunctions) {
   std::smatch found;
-  const std::string libraries = librariesOf("robosim-run");
+  const std::string libraries = librariesLoadedBy(fileOf("robosim-program"));
   ASSERT_TRUE(std::regex_search(libraries, found, std::regex(R"(=> (\S*)/libopencv_core(\S*))"))) << libraries;
   const std::string opencv = found[1].str() + "/libopencv_imgcodecs" + found[2].str();
   ASSERT_TRUE(std::regex_search(libraries, found, std::regex(R"(=> (\S*libopencv_imgcodecs\S*))"))) << libraries;

@@ -205,8 +205,8 @@ TEST(Replay, PrintsEveryValueInFullAsCommaSeparatedValues) {
   const std::string status = csv("STATUS");
   EXPECT_EQ(
       status.rfind(
-          "seconds,label,speed_mps,turn_radps,pan_command_rad,activity,by_driver,emergency_stop,grip,pan_rad,stalled,"
-          "too_far,has_won\n0.0000000,Pioneer1/STATUS,0,0,0,0,0,0,0,0,0,0,0\n",
+          "seconds,label,speed_mps,turn_radps,pan_command_rad,activity,by_driver,emergency_stop,grip,led_color,pan_rad,"
+          "stalled,too_far,has_won\n0.0000000,Pioneer1/STATUS,0,0,0,0,0,0,0,0,0,0,0,0\n",
           0),
       0u)
       << status;

@@ -21,9 +21,10 @@ class Sdk : public testing::Test {
   }
   static void TearDownTestSuite() { installed.reset(); }
 
-  /// Appends plugins with one fault each to the project.
+  /// Appends plugins with one fault each to the project, and the installation of its own.
   static void buildFaultyPlugins(const fs::path& folder) {
     std::ofstream cmake(folder / "CMakeLists.txt", std::ios::app);
+    cmake << "install(TARGETS flocking DESTINATION .)\n";
     const auto add = [&](const std::string& name, const std::string& source) {
       std::ofstream(folder / (name + ".cpp")) << source;
       cmake << "robosim_add_plugin(" << name << " " << name << ".cpp)\n";
@@ -109,6 +110,16 @@ TEST_F(Sdk, PluginsAreLoadedFromTheFoldersOfThePath) {
                                  quoted(installed->program()) + " check flock.xml");
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
   expectRefusal("", "anemometer");  // no world makes the program load code
+}
+
+TEST_F(Sdk, AnInstalledPluginFindsTheLibraryOfItsCodec) {
+  const fs::path installed_plugin = project() / "installed" / "libflocking.so";
+  ASSERT_EQ(runCommand(ROBOSIM_CMAKE " --install " + quoted(project() / "build") + " --prefix " +
+                       quoted(installed_plugin.parent_path()))
+                .exit_code,
+            0);
+  const Ended ended = run("run flock.xml --time 1 --plugin " + quoted(installed_plugin));
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }
 
 TEST_F(Sdk, RefusesWhatIsNoPluginOfThisVersion) {

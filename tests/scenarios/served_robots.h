@@ -38,7 +38,8 @@ inline LoadedWorld rowOfRobots(int robots) {
 /// The robots of a world, served on ports that the system chooses.
 struct ServedRobots {
   explicit ServedRobots(int robots, bool is_factory = false) : ServedRobots(rowOfRobots(robots), is_factory) {}
-  explicit ServedRobots(LoadedWorld world, bool is_factory = false) {
+  /// @param map_file if given: of the world, and programs may load others
+  explicit ServedRobots(LoadedWorld world, bool is_factory = false, const std::string& map_file = "") {
     std::vector<std::size_t> indices(world.fleet.robots.size());
     std::iota(indices.begin(), indices.end(), std::size_t{0});
     environment = std::make_unique<Environment>(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
@@ -46,6 +47,8 @@ struct ServedRobots {
     options.listen = "127.0.0.1:0";
     if (is_factory) options.factory = "p3dx";
     options.factory_most = 1;
+    options.map_file = map_file;
+    options.may_load_maps = !map_file.empty();
     for (const auto i : indices) {
       if (is_factory) environment->remove(i);
     }

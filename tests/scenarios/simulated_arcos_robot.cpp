@@ -7,7 +7,6 @@
 #include "environment/testing/small_world.h"
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
-#include "serving/arcos_lasers.h"
 
 namespace robosim {
 namespace {
@@ -77,8 +76,12 @@ void SimulatedArcosRobot::step() {
   session_.beforeStep(now_);
   environment_->step();
   now_ += std::chrono::milliseconds(100);
-  if (session_.laser().form != arcos::LaserRequest::Form::off) {
-    const ArcosLasers::Request request{0, session_.laser(), &scan_mm_};
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    const arcos::LaserRequest& laser = session_.lasers()[i];
+    scans_[i].ranges_mm.clear();
+    if (laser.form == arcos::LaserRequest::Form::off) continue;
+    if (!ArcosLasers::has(*environment_->fleet().robots[0].model, i)) continue;
+    const ArcosLasers::Request request{0, i, laser, &scans_[i]};
     ArcosLasers(*environment_).measure(std::span(&request, 1));
   }
   pending_ += session_.cycle();

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include "arcos/client/byte_channel.h"
 #include "environment/environment.h"
 #include "environment/local_hardware.h"
+#include "serving/arcos_lasers.h"
 
 namespace robosim {
 
@@ -38,7 +40,9 @@ class SimulatedArcosRobot final : private Simulator {
   ArcosHardware::Options options();
 
   std::string log_text;
-  bool is_silent = false;  ///< the robot sends nothing
+  bool is_silent = false;   ///< the robot sends nothing
+  std::string asked_map;    ///< that the program has asked for last
+  bool loads_maps = false;  ///< the answer to that follows later
 
  private:
   class Channel;
@@ -46,7 +50,12 @@ class SimulatedArcosRobot final : private Simulator {
   std::string mapFile() const override { return "here.map"; }
   void setTruePose(const arcos::SimPose& pose) override;
   void resetTruePose() override { setTruePose({}); }
-  std::span<const std::uint16_t> scan() const override { return scan_mm_; }
+  std::optional<arcos::SimMap> loadMap(const std::string& file) override {
+    asked_map = file;
+    if (loads_maps) return std::nullopt;
+    return arcos::SimMap{.file = mapFile()};
+  }
+  arcos::Scan scan(std::size_t laser) const override { return scans_[laser].view(); }
   void log(const std::string& text) override { log_text += text + '\n'; }
 
   std::string type_;
@@ -56,7 +65,7 @@ class SimulatedArcosRobot final : private Simulator {
   ArcosBoard board_;
   ArcosSession::Clock::time_point now_;
   ArcosSession session_;
-  std::vector<std::uint16_t> scan_mm_;
+  std::array<ArcosScan, arcos::kLasersMax> scans_;
   std::string pending_;  ///< sent by the robot, and not yet read
 };
 

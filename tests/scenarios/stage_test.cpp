@@ -21,7 +21,7 @@ TEST(Stage, WorldsAreDescribedByCheck) {
   EXPECT_EQ(check["robots"], json::parse(R"(["r0", "r1"])"));
   EXPECT_EQ(check["maps"], 1);
   EXPECT_EQ(check["properties"]["ignored"], 1);
-  EXPECT_NE(check["notes"].dump().find("room.world:14: wheelbase is ignored, because"), std::string::npos) << check;
+  EXPECT_NE(check["notes"].dump().find("room.world:14: friction is ignored, because"), std::string::npos) << check;
 }
 
 TEST(Stage, WorldsRunAsTheyDoConverted) {

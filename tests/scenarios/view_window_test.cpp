@@ -236,12 +236,12 @@ TEST(ViewWindow, PrintsWhyARecordingEndsEarly) {
 TEST(ViewWindow, Shows3dViewsLikePictureFiles) {
   const auto folder = emptyFolder();
   const auto hall = writeHallOfTwoBoxes(folder);
-  Window window(viewOf(hall, {"--3d", "--size", "600x536"}));  // 500 px above the toolbar
+  Window window(viewOf(hall, {"--3d", "--size", "1000x536"}));  // 500 px above the toolbar
   const auto file = folder / "air.png";
   ASSERT_EQ(
-      runProgram("view '" + hall.string() + "' --3d --size 600x500 --offscreen '" + file.string() + "'").exit_code, 0);
+      runProgram("view '" + hall.string() + "' --3d --size 1000x500 --offscreen '" + file.string() + "'").exit_code, 0);
   const cv::Mat picture = cv::imread(file.string());
-  const cv::Mat seen = window.start()(cv::Rect(0, 0, 600, 500));
+  const cv::Mat seen = window.start()(cv::Rect(0, 0, 1000, 500));
   EXPECT_GT(bluesIn(picture), 2000);
   EXPECT_LT(cv::norm(seen, picture, cv::NORM_L1) / static_cast<double>(3 * picture.total()), 1);
   const cv::Mat turned =

@@ -46,16 +46,20 @@ class Tutorial:
         self._python = None
         self._groups = []  # (process group, line) of each block of sh, whose background processes may run on
 
-    def run(self):
+    def run(self, ends_programs=False):
+        """Executes the page. Programs that run at its end are a failure, or are ended."""
         try:
-            for block in blocks_of(self._page):
+            for block in self._blocks():
                 if not block.reason:
                     self._process(block)
         finally:
             self._end_python()
-            still_running = self._end_groups()
-        if still_running:
+            still_running = self._end_groups(0 if ends_programs else ENDING_S)
+        if still_running and not ends_programs:
             self._fail(still_running[0], "a process that this block started runs at the end of the page; end it")
+
+    def _blocks(self):
+        return blocks_of(self._page)
 
     def _process(self, block):
         if block.file:
@@ -110,9 +114,9 @@ class Tutorial:
             self._python.wait()
             self._python.stdout.close()
 
-    def _end_groups(self):
-        """Ends the background processes that do not end by themselves; returns the lines of the blocks that started them."""
-        deadline = time.monotonic() + ENDING_S
+    def _end_groups(self, bound_s=ENDING_S):
+        """Ends the background processes that do not end by themselves in time; returns the lines of the blocks that started them."""
+        deadline = time.monotonic() + bound_s
         while any(is_running(group) for group, _ in self._groups) and time.monotonic() < deadline:
             time.sleep(0.05)
         lines = [line for group, line in self._groups if is_running(group)]

@@ -60,8 +60,12 @@ for release in "${releases[@]}"; do
 import robosim, ssl, xml.parsers.expat
 world = robosim.World.generate(\"maze\", robots=2, seed=7)
 with robosim.Simulation(world, controller=\"wander\") as simulation:
+    simulation.record(\"run.rawlog\")
     simulation.step(100)
+    simulation.stop_recording()
     print(simulation.digest, simulation.poses)
+print(robosim.read_rawlog(\"run.rawlog\").robots)
+robosim.World.load(\"lab_map\")
 world.plan()
 print(ssl.create_default_context())"
     fi'

@@ -16,7 +16,10 @@ _MODULE_OF = {
     "AutoresetMode": "_farama",
     "ParallelEnv": "parallel_env",
     "Box": "_farama",
+    "Dict": "_farama",
     "check_env": "conformance",
+    "make": "tasks",
+    "evaluate": "tasks",
     "RemoteRobots": "remote",
     "read_rawlog": "recording",
     "Recording": "recording",
@@ -34,6 +37,8 @@ __all__ = ["ConfigError", "ControllerError", "Error", "RecordingError", "RemoteE
 
 
 def __getattr__(name):
+    if name == "tasks":
+        return importlib.import_module(".tasks", __name__)
     if name not in _MODULE_OF:
         raise AttributeError(f"module 'robosim' has no attribute '{name}'")
     value = getattr(importlib.import_module("." + _MODULE_OF[name], __name__), name)

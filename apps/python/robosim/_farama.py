@@ -19,9 +19,9 @@ except ImportError:
         DISABLED = "Disabled"
 
 try:
-    from gymnasium.spaces import Box
+    from gymnasium.spaces import Box, Dict
 except ImportError:
-    from .spaces import Box
+    from .spaces import Box, Dict
 
 try:
     from pettingzoo import ParallelEnv as ParallelEnvBase

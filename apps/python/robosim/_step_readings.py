@@ -12,8 +12,8 @@ import struct
 
 import numpy as np
 
-# Fields of Measurement (sensors.proto) with numbers, and their types. Field 4 is a file.
-_TYPES = {1: np.dtype("<f4"), 2: np.dtype("<f8"), 3: np.dtype("u1"), 4: np.dtype("u1")}
+# Fields of Measurement (sensors.proto) with numbers, and their types. Field 4 is a file, 7 a ray-cast picture.
+_TYPES = {1: np.dtype("<f4"), 2: np.dtype("<f8"), 3: np.dtype("u1"), 4: np.dtype("u1"), 7: np.dtype("u1")}
 _MEASUREMENT_TAG = 1 << 3 | 2  # RobotReadings.measurements
 _ROBOT_TAG = 2 << 3 | 2  # StepReadings.robots
 _STALLED = (2 << 3, 1)  # bytes of RobotReadings.stalled
@@ -206,7 +206,8 @@ class StepReadings:
                 self.inboxes.setdefault(robot, []).append((message[1].decode(), message[2]))
 
     def numbers(self, index_of_set, sensor, width):
-        """Numbers of a sensor of the robots of a set: shape (robots, records, width), read-only. A view of the message if
+        """Numbers of a sensor of the robots of a set: shape (robots, records, width), read-only; numbers beyond whole records,
+        such as the lateral speed of odometry, are left out. A view of the message if
         the robots' readings have equal distances, which is so unless one of several robots is stalled or has messages."""
         layouts, robots = self._layouts[index_of_set], self._robots_by_set[index_of_set]
         begins = self._begins if len(self._begins) == 1 else self._begins[robots]
@@ -215,13 +216,14 @@ class StepReadings:
             rows = [np.frombuffer(self._data, np.uint8, size, begin + first)
                     for begin, (_, first, size) in zip(begins.tolist(), places)]
             field = next((field for field, _, size in places if size), 1)
-            size = max(size for _, _, size in places)
+            size = max(size // (_TYPES[field].itemsize * width) for _, _, size in places) * _TYPES[field].itemsize * width
             # A robot without a measurement has NaN, or 0.
             blank = np.full(size // _TYPES[field].itemsize, np.nan if field < 3 else 0, _TYPES[field]).view(np.uint8)
-            gathered = np.stack([row if len(row) == size else blank for row in rows]).view(_TYPES[field])
+            gathered = np.stack([row[:size] if len(row) >= size else blank for row in rows]).view(_TYPES[field])
             return _read_only(gathered.reshape(len(begins), -1, width))
         field, first, size = layouts.numbers[sensor]
         dtype = _TYPES[field]
+        size -= size % (dtype.itemsize * width)
         shape = (len(begins), size // (dtype.itemsize * width), width)
         if size == 0:
             return _read_only(np.empty(shape, dtype))

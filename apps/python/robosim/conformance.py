@@ -1,6 +1,7 @@
 """Checks whether an environment follows the interface of Gymnasium's VectorEnv or PettingZoo's ParallelEnv."""
 import numpy as np
 
+from ._arguments import refuse
 from .parallel_env import ParallelEnv
 
 
@@ -10,6 +11,8 @@ def check_env(env, steps=200):
     env: an environment with the interface of gymnasium.vector.VectorEnv 1.0 with next-step autoreset, or of
         pettingzoo.ParallelEnv (with possible_agents). Its episodes must not depend on anything but seeds and actions.
     """
+    if not hasattr(env, "reset") or not hasattr(env, "step"):
+        refuse("env", env, "an environment with reset() and step()", 'robosim.VectorEnv("small_maze")')
     if isinstance(env, ParallelEnv) or hasattr(env, "possible_agents"):
         _check_parallel(env, steps)
     else:
@@ -53,16 +56,32 @@ def _check_attributes(env):
     for name in ("spec", "render_mode", "closed", "np_random", "unwrapped"):
         _require(hasattr(env, name), f"the environment must have the attribute {name}")
     for name in ("observation_space", "action_space"):
-        single, whole = getattr(env, "single_" + name), getattr(env, name)
-        _require(whole.shape == (env.num_envs, *single.shape), f"{name} must be the batched single_{name}")
-        _require(whole.dtype == single.dtype, f"{name} and single_{name} must have one type")
+        _check_batched(getattr(env, name), getattr(env, "single_" + name), env.num_envs, name)
+
+
+def _check_batched(whole, single, count, name):
+    if hasattr(single, "spaces"):
+        _require(hasattr(whole, "spaces") and set(whole.spaces) == set(single.spaces),
+                 f"{name} must have the names of single_{name}")
+        for part in single.spaces:
+            _check_batched(whole[part], single[part], count, name)
+        return
+    _require(whole.shape == (count, *single.shape), f"{name} must be the batched single_{name}")
+    _require(whole.dtype == single.dtype, f"{name} and single_{name} must have one type")
+
+
+def _arrays_of(observation):
+    """Copies of an observation's array, or of the arrays of a dict in the order of their names."""
+    if isinstance(observation, dict):
+        return [array.copy() for _, array in sorted(observation.items())]
+    return [observation.copy()]
 
 
 def _checked_episodes(env, actions):
     observations, infos = env.reset(seed=7)
     _check_observations(env, observations, infos)
     over = np.zeros(env.num_envs, bool)
-    steps = [(observations.copy(),)]
+    steps = [_arrays_of(observations)]
     for action in actions:
         observations, rewards, terminated, truncated, infos = env.step(action)
         _check_observations(env, observations, infos)
@@ -74,7 +93,7 @@ def _checked_episodes(env, actions):
         _require(not np.any((terminated | truncated) & over),
                  "the step after an episode's end must begin the next episode")
         _require(not np.any(rewards[over]), "the step after an episode's end must have reward 0")
-        steps.append((observations.copy(), rewards.copy(), terminated.copy(), truncated.copy()))
+        steps.append([*_arrays_of(observations), rewards.copy(), terminated.copy(), truncated.copy()])
         over = terminated | truncated
     return steps
 
@@ -118,7 +137,7 @@ def _checked_team(env, actions):
                      "observations must be elements of their space")
         over = {agent for agent in agents if terminated[agent] or truncated[agent]}
         _require(set(env.agents) == agents - over, "agents must be those whose episode has not ended")
-        seen.append((sorted(rewards.items()), [observations[agent].tolist() for agent in sorted(agents)]))
+        seen.append((sorted(rewards.items()), [array.tobytes() for agent in sorted(agents) for array in _arrays_of(observations[agent])]))
     return seen
 
 

@@ -1,11 +1,13 @@
 """Robots of an environment in another process (robosim serve), driven over one connection with NumPy arrays."""
 import queue
+import struct
 
 import numpy as np
 
 from ._errors import RemoteError
 from ._step_readings import StepAnswer, StepDecoder, StepReadings
 
+_PICTURE_MAGIC = b"RoboSim picture\n"  # begins the bytes of a ray-cast picture, before width, height, range and layers
 grpc = v1 = None  # imported when first used: only this class requires them
 
 
@@ -127,7 +129,34 @@ class RemoteRobots:
     def picture(self, name, label=""):
         """The newest picture of a robot's camera in this step: bytes of a JPEG file; empty without one.
 
-        label: of the camera; the robot's first one by default."""
+        label: of the camera; the robot's first one by default. Raises ValueError for a ray-cast camera, which has no file."""
+        data = self._picture_bytes(name, label)
+        if data.startswith(_PICTURE_MAGIC):
+            raise ValueError(f"the camera of robot '{name}' is ray-cast; use pixels()")
+        return data
+
+    def pixels(self, name, label=""):
+        """The pixels of a robot's ray-cast camera in this step (doc/raycast_cameras.md): a dict of the layers that it has; None
+        without a picture.
+
+        "rgb": uint8, shape (height, width, 3); "depth": float32 [m] and "identity": uint32, shape (height, width)."""
+        data = self._picture_bytes(name, label)
+        if not data:
+            return None
+        if not data.startswith(_PICTURE_MAGIC):
+            raise ValueError(f"the camera of robot '{name}' is not ray-cast; use picture()")
+        at = len(_PICTURE_MAGIC)
+        width, height, _, bits = struct.unpack_from("<IIfI", data, at)
+        at += 16
+        layers = {}
+        for bit, layer, dtype, shape in ((1, "rgb", "u1", (height, width, 3)), (2, "depth", "<f4", (height, width)),
+                                         (4, "identity", "<u4", (height, width))):
+            if bits & bit:
+                layers[layer] = np.ndarray(shape, dtype, data, at)
+                at += layers[layer].nbytes
+        return layers
+
+    def _picture_bytes(self, name, label):
         robot = self._index_of(name)
         for index, (sensors, robots) in enumerate(zip(self._sets, self._robots_by_set)):
             if robot in robots:
@@ -254,7 +283,8 @@ class RemoteRobots:
             if slot is None:
                 slot = next((slot for slot, sensor in enumerate(sensors) if sensor.label == kind), None)
             if slot is not None:
-                found.append((index, slot, [field.name for field in sensors[slot].fields]))
+                # Messages have the lateral speed of odometry only where there is one, as of omnidirectional robots.
+                found.append((index, slot, [field.name for field in sensors[slot].fields if field.name != "lateral"]))
         if not found:
             names = sorted({name for sensors in self._sets for sensor in sensors for name in (sensor.kind, sensor.label)})
             raise ValueError(f"no robot has a sensor '{kind}'; the sensors are {', '.join(names)}")

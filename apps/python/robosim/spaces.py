@@ -5,7 +5,7 @@ import numpy as np
 class Box:
     """Arrays of one shape whose elements lie between bounds, which may be infinite.
 
-    low, high: numbers, or arrays of this shape. dtype: a floating-point type.
+    low, high: numbers, or arrays of this shape.
     """
 
     def __init__(self, low, high, shape=None, dtype=np.float32, seed=None):
@@ -78,3 +78,53 @@ class Box:
     def __repr__(self):
         low, high = (self.low.min(), self.high.max()) if self.low.size else (0, 0)
         return f"Box({low}, {high}, {self._shape}, {self.dtype})"
+
+
+class Dict:
+    """Dicts of elements of several spaces, by name."""
+
+    def __init__(self, spaces):
+        self.spaces = dict(spaces)
+
+    @property
+    def shape(self):
+        return None
+
+    def __getitem__(self, name):
+        return self.spaces[name]
+
+    def __iter__(self):
+        return iter(self.spaces)
+
+    def __len__(self):
+        return len(self.spaces)
+
+    def keys(self):
+        return self.spaces.keys()
+
+    def values(self):
+        return self.spaces.values()
+
+    def items(self):
+        return self.spaces.items()
+
+    def seed(self, seed=None):
+        """Seeds sample() of each space, at random without a seed. Returns the seeds by name."""
+        return {name: space.seed(seed) for name, space in self.spaces.items()}
+
+    def sample(self, mask=None):
+        """A random element."""
+        if mask is not None:
+            raise ValueError("a Dict has no masks")
+        return {name: space.sample() for name, space in self.spaces.items()}
+
+    def contains(self, x):
+        return isinstance(x, dict) and x.keys() == self.spaces.keys() and all(x[name] in self.spaces[name] for name in x)
+
+    __contains__ = contains
+
+    def __eq__(self, other):
+        return isinstance(other, Dict) and self.spaces == other.spaces
+
+    def __repr__(self):
+        return f"Dict({self.spaces})"

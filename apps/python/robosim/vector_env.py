@@ -1,11 +1,12 @@
 """Many environments that step together, with the interface of Gymnasium 1.0's VectorEnv."""
 import numpy as np
 
+from ._arguments import SEED_MAX, refuse, require_whole
 from ._farama import AutoresetMode, VectorEnvBase
-from ._learning import SEED_MAX, Results, batched, end_reason, make_batch, parts_of, require_whole, spaces_of
+from ._learning import (Copyable, Results, batched, end_reason, make_batch, numbers_of, parts_of, spaces_of, worlds_of)
 
 
-class VectorEnv(VectorEnvBase):
+class VectorEnv(Copyable, VectorEnvBase):
     """Many environments that step together in this process, with the semantics of gymnasium.vector.VectorEnv 1.0. It is
     one, with Gymnasium's spaces and AutoresetMode, when Gymnasium is installed.
 
@@ -27,8 +28,14 @@ class VectorEnv(VectorEnvBase):
         the heat sensors, or that of the farthest tenth of the free places.
     threads: they do not affect the results.
 
-    Observations are float32 of shape (num_envs, size); of several agents (num_envs, agents, size). Actions are of shape
-    (num_envs, 2) or (num_envs, agents, 2): speed and turn rate as fractions of the robot's maximum, clipped to [-1, 1].
+    Observations are float32 of shape (num_envs, size); of several agents (num_envs, agents, size). With ray-cast cameras
+    among `observations` (doc/raycast_cameras.md) they are dicts: "camera" of uint8 (num_envs, height, width, 3), "camera_depth"
+    of float32 [m] and "camera_identity" of uint32 (num_envs, height, width), for the layers that the camera has; all other
+    parts are "numbers", if there are any. Pixels are 0 in a step in which the camera takes no picture.
+
+    Actions are of shape
+    (num_envs, 2) or (num_envs, agents, 2): speed and turn rate as fractions of the robot's maximum, clipped to [-1, 1];
+    3 numbers, the third a lateral speed, if any agent has an omnidirectional drive.
     Rewards are float64 of shape (num_envs,) or (num_envs, agents).
 
     The step in which an episode ends returns its final observation. The next step ignores the action of that
@@ -38,6 +45,9 @@ class VectorEnv(VectorEnvBase):
     since then; "gold_found": whether a robot has found the gold; and when an episode ends "ended_by": "win" or
     "max_steps", and "winner": name of the robot that has won. Each has Gymnasium's mask ("_step"); values are None where
     the masks of the last two are False.
+
+    An environment can be pickled, deep-copied and sent to a spawned process; the copy continues bit for bit. Within an
+    episode in which controllers drive other robots only copy.deepcopy() is possible.
 
     The engine writes into the returned arrays without a copy, alternating between two sets: they keep their values
     until the next but one call of step() or reset(). Copy what is to be kept for longer.
@@ -50,8 +60,9 @@ class VectorEnv(VectorEnvBase):
     def __init__(self, worlds, num_envs=1, robots=1, observations=("sonar", "heat"), reward=None, max_steps=1000,
                  period_s=0.1, random_starts=True, threads=1, seed=1, start_distance_m=None, others="controllers"):
         self.closed = True
-        self._batch = make_batch(worlds, num_envs, robots, observations, reward, period_s, max_steps, random_starts,
-                                 start_distance_m, threads, seed, others)
+        self._made_of = (worlds_of(worlds), num_envs, robots, observations, reward, period_s, max_steps, random_starts,
+                         start_distance_m, threads, seed, others)
+        self._batch = make_batch(*self._made_of)
         self.closed = False
         self.num_envs = int(num_envs)
         self.agent_names = tuple(self._batch.agent_names)
@@ -60,7 +71,7 @@ class VectorEnv(VectorEnvBase):
         self.observation_space = batched(self.single_observation_space, self.num_envs)
         self.action_space = batched(self.single_action_space, self.num_envs)
         self._sets = [Results(self._batch, self.num_envs) for _ in range(2)]
-        self._action_shape = (self.num_envs, self._batch.agents, 2)
+        self._action_shape = (self.num_envs, self._batch.agents, self._batch.action_size)
         self._has_episode = np.zeros(self.num_envs, bool)
         self._all = np.ones(self.num_envs, bool)
         self._is_ready = False
@@ -92,14 +103,20 @@ class VectorEnv(VectorEnvBase):
             {"interventions": {environment: [element, …]}} are set by set_interventions() before the episodes begin.
         """
         self._require_open()
+        if options is not None and not hasattr(options, "keys"):
+            refuse("options", options, "a dict with 'reset_mask' and 'interventions'", '{"interventions": {0: []}}')
         options = dict(options or {})
         mask = options.pop("reset_mask", None)
-        interventions = dict(options.pop("interventions", None) or {})
+        interventions = options.pop("interventions", None) or {}
+        if not hasattr(interventions, "items"):
+            refuse("options['interventions']", interventions, "a dict of lists of elements by environment",
+                   "{0: ['<remove name=\"Puck1\"/>']}")
         if options:
             raise ValueError(f"unknown options {sorted(options)}; options are 'reset_mask' and 'interventions'")
         selected = np.ones(self.num_envs, bool) if mask is None else mask
         if not isinstance(selected, np.ndarray) or selected.dtype != bool or selected.shape != (self.num_envs,):
-            raise TypeError(f"reset_mask must be a bool array of shape ({self.num_envs},)")
+            raise TypeError(f"reset_mask must be a bool array of shape ({self.num_envs},), "
+                            f"for example np.ones({self.num_envs}, bool)")
         seeds = self._seeds_of(seed)
         for environment, elements in interventions.items():
             self.set_interventions(environment, elements)
@@ -110,10 +127,11 @@ class VectorEnv(VectorEnvBase):
             if of_one is not None and selected[index]:
                 self._batch.set_seed(index, of_one)
         self._batch.reset(results.observations, mask)
+        results.take_pictures(self._batch)
         self._has_episode |= selected
         self._is_ready = bool(self._has_episode.all())
         self._sets.reverse()
-        return self._shaped(results.observations), self._infos(selected)
+        return self._observed(results), self._infos(selected)
 
     def set_interventions(self, environment, elements):
         """The following episodes of an environment begin with these changes, until others are set; [] for none.
@@ -127,20 +145,21 @@ class VectorEnv(VectorEnvBase):
         """
         self._require_open()
         require_whole("the environment", environment, 0, self.num_envs - 1)
-        self._batch.set_interventions(int(environment), [elements] if isinstance(elements, str) else list(elements))
+        if isinstance(elements, str):
+            elements = [elements]
+        if not np.iterable(elements) or not all(isinstance(element, str) for element in elements):
+            refuse("elements", elements, "a list of XML elements as str", "['<remove name=\"Puck1\"/>']")
+        self._batch.set_interventions(int(environment), list(elements))
 
     def step(self, actions):
         """Takes a step in every environment; returns observations, rewards, terminations, truncations and infos."""
         self._require_open()
         if not self._is_ready:
             raise RuntimeError("call reset() before the first step")
-        actions = np.asarray(actions)
-        if actions.shape == self.action_space.shape:
-            actions = actions.reshape(self._action_shape)
-        else:
-            raise ValueError(f"actions have the shape {actions.shape}; it must be {self.action_space.shape}")
+        actions = numbers_of(actions, "actions", self.action_space.shape).reshape(self._action_shape)
         results = self._sets[1]
         self._batch.step(actions, results.observations, results.rewards, results.terminated, results.truncated)
+        results.take_pictures(self._batch)
         self._sets.reverse()
         rewards = results.rewards if len(self.action_space.shape) == 3 else results.rewards[:, 0]
         infos = self._infos(self._all)
@@ -151,7 +170,7 @@ class VectorEnv(VectorEnvBase):
         if results.terminated.any():
             infos["winner"] = self._batch.winners
             infos["_winner"] = results.terminated.copy()
-        return self._shaped(results.observations), rewards, results.terminated, results.truncated, infos
+        return self._observed(results), rewards, results.terminated, results.truncated, infos
 
     def render(self):
         """Returns None: there is no render mode."""
@@ -218,7 +237,8 @@ class VectorEnv(VectorEnvBase):
             if of_one is not None:
                 require_whole("the seed", of_one, 0, SEED_MAX)
         if len(seeds) != self.num_envs:
-            raise ValueError(f"there are {len(seeds)} seeds; {self.num_envs} are required")
+            raise ValueError(f"there are {len(seeds)} seeds; {self.num_envs} are required, one for each environment, "
+                             f"for example seed=list(range({self.num_envs}))")
         return seeds
 
     def _infos(self, which):
@@ -227,5 +247,6 @@ class VectorEnv(VectorEnvBase):
         return {"step": steps, "_step": which, "time_s": steps * self._batch.period_s, "_time_s": which,
                 "gold_found": self._batch.gold_found, "_gold_found": which}
 
-    def _shaped(self, observations):
-        return observations if len(self.action_space.shape) == 3 else observations[:, 0]
+    def _observed(self, results):
+        has_agents = len(self.action_space.shape) == 3
+        return results.observed(self._batch, lambda array: array if has_agents else array[:, 0])

@@ -1,7 +1,19 @@
 """Worlds built object by object."""
 import xml.etree.ElementTree as ET
 
+from ._arguments import refuse, require_whole
 from ._robosim import World
+
+
+def _numbers(name, values, count, example):
+    """A sequence of so many numbers."""
+    try:
+        numbers = [float(value) for value in values]
+    except (TypeError, ValueError):
+        refuse(name, values, f"{count} numbers", f"{name}={example}")
+    if len(numbers) != count:
+        raise ValueError(f"{name} has {len(numbers)} numbers; it must have {count}, for example {name}={example}")
+    return numbers
 
 
 def _add(parent, tag, value=None):
@@ -29,29 +41,40 @@ class WorldBuilder:
         self._surface = _add(self._world, "surface")
         size = _add(self._surface, "size")
         for axis, bounds in (("x", x_m), ("y", y_m)):
-            low, high = bounds
+            low, high = _numbers(axis + "_m", bounds, 2, (-10, 10))
             _add(size, axis + "min", low)
             _add(size, axis + "max", high)
 
-    def _body(self, tag, name, x_m, y_m, dimensions, height_m, base_m, color, heat_celsius, heading_rad):
+    def _body(self, tag, name, x_m, y_m, dimensions, height_m, base_m, color, heading_rad, heat_celsius,
+              light_cd, fiducial):
         primitive = _add(_add(_add(self._surface, "object"), "shape"), "primitive")
         body = _add(primitive, tag)
         values = {"name": name, "x": x_m, "y": y_m, "z": base_m + height_m / 2, **dimensions, "height": height_m,
                   "direction": heading_rad, "color": " ".join(repr(float(part)) for part in color),
                   "hot": heat_celsius, "stationary": "1"}
+        if light_cd:
+            values["light"] = light_cd
+        if fiducial:
+            values["fiducial"] = str(int(fiducial))
         for setting, value in values.items():
             _add(body, setting, value)
         return self
 
     def box(self, name, x_m, y_m, *, length_m, width_m, height_m=0.6, base_m=0, heading_rad=0, color=(0.5, 0.5, 0.5),
-            heat_celsius=0):
-        """Adds a stationary box around (x_m, y_m); its length is along its heading. base_m: height of its underside."""
-        return self._body("cube", name, x_m, y_m, {"length": length_m, "width": width_m}, height_m, base_m, color,
-                          heat_celsius, heading_rad)
+            heat_celsius=0, light_cd=0, fiducial=0):
+        """Adds a stationary box around (x_m, y_m); its length is along its heading. base_m: height of its underside.
 
-    def cylinder(self, name, x_m, y_m, *, radius_m, height_m=0.6, base_m=0, color=(0.5, 0.5, 0.5), heat_celsius=0):
-        """Adds a stationary cylinder. A hot one is gold. base_m: height of its underside."""
-        return self._body("cylinder", name, x_m, y_m, {"radius": radius_m}, height_m, base_m, color, heat_celsius, 0)
+        With base_m=-0.01, height_m=0.01 it is an area painted on the floor. light_cd: its luminous intensity;
+        fiducial: number of its mark.
+        """
+        return self._body("cube", name, x_m, y_m, {"length": length_m, "width": width_m}, height_m, base_m, color,
+                          heading_rad, heat_celsius, light_cd, fiducial)
+
+    def cylinder(self, name, x_m, y_m, *, radius_m, height_m=0.6, base_m=0, color=(0.5, 0.5, 0.5), heat_celsius=0,
+                 light_cd=0, fiducial=0):
+        """Adds a stationary cylinder; otherwise as box(). A hot one is gold."""
+        return self._body("cylinder", name, x_m, y_m, {"radius": radius_m}, height_m, base_m, color, 0, heat_celsius,
+                          light_cd, fiducial)
 
     def _robot_in(self, parent, type, name, controller, parameters):
         robot = _add(parent, "robot")
@@ -76,11 +99,12 @@ class WorldBuilder:
         pattern: "uniform", "free" or "grid". area: (x_min, x_max, y_min, y_max) [m]; None: the surface.
         gap_m: minimum distance to everything else.
         """
+        require_whole("count", count, 0, 1_000_000, 5)
         scatter = _add(self._surface, "scatter")
         scatter.attrib.update(count=str(int(count)), pattern=pattern, gap=repr(float(gap_m)))
         if area is not None:
-            for setting, value in zip(("xmin", "xmax", "ymin", "ymax"), area, strict=True):
-                scatter.set(setting, repr(float(value)))
+            for setting, value in zip(("xmin", "xmax", "ymin", "ymax"), _numbers("area", area, 4, (0, 10, 0, 6))):
+                scatter.set(setting, repr(value))
         self._robot_in(scatter, type, name, controller, parameters)
         return self
 

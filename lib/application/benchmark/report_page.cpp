@@ -50,6 +50,21 @@ std::string worldsOf(const SearchPlan& plan, std::span<const CaseSummary> summar
   return html;
 }
 
+std::string runLinks(const SearchPlan& plan, const SearchRuns& runs, const std::vector<RunPageLink>& pages) {
+  if (pages.empty()) return "";
+  std::string html =
+      "<h2>Runs to watch</h2>\n<div class=wide tabindex=0><table><thead><tr><th>run</th><th>result</th>"
+      "<th>driven [m]</th><th>stalls</th></tr></thead><tbody>\n";
+  for (const auto& page : pages) {
+    const SearchRun& run = *runs[page.run];
+    html += "<tr><th><a href=\"" + escapedHtml(page.file) + "\">" +
+            escapedHtml(plan.caseName(plan.caseAt(run.case_index)) + ", seed " + std::to_string(run.seed)) +
+            "</a></th><td>" + (run.found_s ? fixed(*run.found_s, 1) + " s" : "never") + "</td><td>" +
+            fixed(run.driven_m, 1) + "</td><td>" + withCommas(run.stalls) + "</td></tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
 std::string makeComparisons(const SearchPlan& plan, const SearchRuns& runs) {
   if (plan.strategies.size() < 2) return "";
   std::string html =
@@ -103,12 +118,13 @@ constexpr const char* kMethods =
 
 }  // namespace
 
-std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std::string& command) {
+std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std::string& command,
+                       const std::vector<RunPageLink>& pages) {
   return reportPage("Gold benchmark",
                     "<p class=\"quiet\">" + escapedHtml(summaryLine(plan, runs)) + "</p>\n<pre>" +
                         escapedHtml(command) + "</pre>\n" + makeOverview(plan, runs) +
-                        worldsOf(plan, summarise(plan, runs)) + makeComparisons(plan, runs) +
-                        robustnessSection(plan, runs) + kMethods,
+                        worldsOf(plan, summarise(plan, runs)) + runLinks(plan, runs, pages) +
+                        makeComparisons(plan, runs) + robustnessSection(plan, runs) + kMethods,
                     chartStyle());
 }
 

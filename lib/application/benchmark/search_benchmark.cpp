@@ -5,8 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "replay/run_tables.h"
 #include "run/local_run.h"
 #include "run/output_files.h"
+#include "run/outputs/run_note.h"
 #include "run/seeded_run.h"
 
 namespace robosim {
@@ -17,13 +19,18 @@ bool hasGold(const World& world) {
                      [](const WorldObject& object) { return object.body.heat_celsius > 0; });
 }
 
-/// A world with a team under a condition, for all strategies. @throws ConfigError
-LoadedWorld loadFor(const WorldSource& source, const SearchPlan& plan, int team, const Condition& condition) {
+/// A world with a team under a condition.
+WorldSource sourceFor(const WorldSource& source, const SearchPlan& plan, int team, const Condition& condition) {
   WorldChanges changes;
   if (team > 0) changes.team = team;
   if (condition.message_loss > 0) changes.message_loss = condition.message_loss;
   changes.noise = condition.noise;
-  LoadedWorld loaded = loadWorldToRun(withChanges(source, changes, plan.seed), plan.strategies.front());
+  return withChanges(source, changes, plan.seed);
+}
+
+/// The world of a source, for all strategies. @throws ConfigError
+LoadedWorld loadFor(const WorldSource& source, const SearchPlan& plan) {
+  LoadedWorld loaded = loadWorldToRun(source, plan.strategies.front());
   ErrorList errors;
   for (const auto& strategy : plan.strategies) checkControllers(loaded, source.file, strategy, errors);
   errors.throwIfAny();
@@ -46,7 +53,8 @@ SearchBenchmark::SearchBenchmark(SearchPlan plan, const std::vector<std::string>
     plan_.world_versions.push_back(versionOf(source));
     for (const auto& condition : plan_.conditions) {
       for (const int team : plan_.teams) {
-        LoadedWorld loaded = loadFor(source, plan_, team, condition);
+        WorldSource changed = sourceFor(source, plan_, team, condition);
+        LoadedWorld loaded = loadFor(changed, plan_);
         if (!hasGold(loaded.world)) {
           throw ConfigError(file + ": has no gold; give an object a <hot> above 0, or use robosim bench metrics");
         }
@@ -56,7 +64,8 @@ SearchBenchmark::SearchBenchmark(SearchPlan plan, const std::vector<std::string>
         if (worlds_.empty() || worlds_.back()->world.world.name != name) {
           for (const auto& input : listInputFiles(file, loaded.world)) input_files_.push_back(input);
         }
-        worlds_.push_back(std::make_unique<PreparedWorld>(PreparedWorld{std::move(loaded), std::move(starts)}));
+        worlds_.push_back(
+            std::make_unique<PreparedWorld>(PreparedWorld{std::move(changed), std::move(loaded), std::move(starts)}));
       }
     }
   }
@@ -65,6 +74,35 @@ SearchBenchmark::SearchBenchmark(SearchPlan plan, const std::vector<std::string>
 std::string SearchBenchmark::planText() const { return plan_.json().dump(); }
 
 std::optional<SearchRun> SearchBenchmark::run(std::size_t index, const std::function<bool()>& is_interrupted) const {
+  return run(index, is_interrupted, {});
+}
+
+bool SearchBenchmark::writePage(std::size_t index, const std::filesystem::path& file,
+                                const std::function<bool()>& is_interrupted) const {
+  const SearchPlan::Case c = plan_.caseAt(index / plan_.runs);
+  RunNote note;
+  note.world = worldOf(c).source;
+  note.world.seed = plan_.seed;  // of what it scatters
+  note.seed = plan_.seed + index % plan_.runs;
+  note.period_s = plan_.period_s;
+  std::optional<RunTables> page;
+  const auto observe = [&](const Environment& environment) {
+    if (!page) {
+      for (const auto& robot : environment.fleet().robots) {
+        note.controllers.push_back(plan_.strategies[c.strategy].empty() ? robot.controller
+                                                                        : plan_.strategies[c.strategy]);
+      }
+      page.emplace(std::vector<RecordingOutput>{{file, RecordingFormat::page}}, note.world.file, environment, note);
+    }
+    page->observe(environment);
+  };
+  if (!run(index, is_interrupted, observe)) return false;
+  page->finish();
+  return true;
+}
+
+std::optional<SearchRun> SearchBenchmark::run(std::size_t index, const std::function<bool()>& is_interrupted,
+                                              const std::function<void(const Environment&)>& observe) const {
   const std::size_t case_index = index / plan_.runs;
   const SearchPlan::Case c = plan_.caseAt(case_index);
   SeededRun how{.controller = plan_.strategies[c.strategy],
@@ -75,7 +113,7 @@ std::optional<SearchRun> SearchBenchmark::run(std::size_t index, const std::func
                 .breakdown_mean_s = plan_.conditions[c.condition].breakdown_mean_s};
   how.observers.insert(how.observers.end(), plan_.observers.begin(), plan_.observers.end());
   const PreparedWorld& prepared = worldOf(c);
-  const auto summary = runSeeded(prepared.world, prepared.starts, how, is_interrupted);
+  const auto summary = runSeeded(prepared.world, prepared.starts, how, is_interrupted, observe);
   if (!summary) return std::nullopt;
   return SearchRun::of(case_index, *summary);
 }

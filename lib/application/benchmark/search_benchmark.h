@@ -10,6 +10,7 @@
 #include "environment/start_poses.h"
 #include "environment/world_changes.h"
 #include "robots/fleet.h"
+#include "robots/world_source.h"
 
 namespace robosim {
 
@@ -30,15 +31,25 @@ class SearchBenchmark : public NumberedRuns {
   /// @param index `runs` successive ones belong to one case
   std::optional<SearchRun> run(std::size_t index, const std::function<bool()>& is_interrupted) const override;
   std::string planText() const override;
+  /// Repeats a run, and writes the page that shows it.
+  /// @param file whose stem is its title
+  /// @return false when interrupted; nothing is written then
+  /// @throws ConfigError, ControllerError, ObserverError, RecordingError
+  bool writePage(std::size_t index, const std::filesystem::path& file,
+                 const std::function<bool()>& is_interrupted) const;
 
  private:
   struct PreparedWorld {
+    WorldSource source;
     LoadedWorld world;
     RandomStarts starts;
   };
   const PreparedWorld& worldOf(const SearchPlan::Case& c) const {
     return *worlds_[(c.world * plan_.conditions.size() + c.condition) * plan_.teams.size() + c.team];
   }
+
+  std::optional<SearchRun> run(std::size_t index, const std::function<bool()>& is_interrupted,
+                               const std::function<void(const Environment&)>& observe) const;
 
   SearchPlan plan_;
   std::vector<std::filesystem::path> input_files_;

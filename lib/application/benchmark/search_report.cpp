@@ -1,7 +1,11 @@
 #include "benchmark/search_report.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -96,8 +100,30 @@ std::string comparisonsCsv(const SearchPlan& plan, const SearchRuns& runs) {
   return csv;
 }
 
-void writeReport(const std::filesystem::path& folder, const SearchPlan& plan, const SearchRuns& runs,
-                 const std::string& command) {
+std::vector<RunPageLink> chooseRuns(const SearchPlan& plan, const SearchRuns& runs, std::size_t count) {
+  std::vector<RunPageLink> chosen;
+  for (std::size_t strategy = 0; strategy < plan.strategies.size(); ++strategy) {
+    std::vector<std::pair<double, std::size_t>> by_time;  // and index
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (!runs[i] || plan.caseAt(runs[i]->case_index).strategy != strategy) continue;
+      by_time.emplace_back(runs[i]->found_s.value_or(std::numeric_limits<double>::infinity()), i);
+    }
+    std::sort(by_time.begin(), by_time.end());
+    const std::size_t of_strategy = std::min(count, by_time.size());
+    std::string name = plan.strategies[strategy].empty() ? "world" : plan.strategies[strategy];
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '-'; }, '_');
+    for (std::size_t k = 0; k < of_strategy; ++k) {
+      const std::size_t at = of_strategy == 1 ? 0 : k * (by_time.size() - 1) / (of_strategy - 1);
+      const std::size_t run = by_time[at].second;
+      chosen.push_back({run, "runs/" + name + "-" + std::to_string(run) + ".html"});
+    }
+  }
+  return chosen;
+}
+
+void writeReportData(const std::filesystem::path& folder, const SearchPlan& plan, const SearchRuns& runs,
+                     const std::string& command) {
   const std::filesystem::path figures = folder / "figures";
   std::error_code error;
   std::filesystem::create_directories(figures, error);
@@ -112,8 +138,11 @@ void writeReport(const std::filesystem::path& folder, const SearchPlan& plan, co
   writeFile(folder / "runs.csv", runsCsv(plan, runs));
   writeFile(folder / "runs.json", runsJson(plan, runs, command));
   writeFile(folder / "comparisons.csv", comparisonsCsv(plan, runs));
-  // Last, so that a page stands for a complete report.
-  writeFile(folder / "index.html", reportHtml(plan, runs, command));
+}
+
+void writeReportPage(const std::filesystem::path& folder, const SearchPlan& plan, const SearchRuns& runs,
+                     const std::string& command, const std::vector<RunPageLink>& pages) {
+  writeFile(folder / "index.html", reportHtml(plan, runs, command, pages));
 }
 
 }  // namespace robosim

@@ -229,6 +229,7 @@ struct NetworkHardware::Impl {
       readings.time = {step, welcome.period_s};
       readings.winner = received.winner();
       decode(received.robots(static_cast<int>(i)), robots[i]->info().name, readings);
+      checkPictures(readings, *robots[i]->info().sensors);
     }
     return true;
   }

@@ -64,8 +64,11 @@ ServedSource requestSource(const ConnectOptions& environment, CallCancellation& 
 
 }  // namespace
 
-RunMonitor::RunMonitor(ConnectOptions environment)
-    : environment_(std::move(environment)), watcher_([this] { watch(); }), operator_([this] { operate(); }) {}
+RunMonitor::RunMonitor(ConnectOptions environment, Restart restart)
+    : environment_(std::move(environment)),
+      restart_(restart),
+      watcher_([this] { watch(); }),
+      operator_([this] { operate(); }) {}
 
 RunMonitor::~RunMonitor() {
   {
@@ -76,6 +79,7 @@ RunMonitor::~RunMonitor() {
     }
   }
   viewing_.cancel();
+  replacing_.cancel();
   condition_.notify_all();
   watcher_.join();
   operator_.join();
@@ -87,17 +91,25 @@ RunView RunMonitor::newest() {
   if (received_ && view.phase != RunView::Phase::ended && Clock::now() - *received_ > kSilence) {
     view.phase = RunView::Phase::gone;
     view.absent.clear();
-    view.may_restart = false;
+    view.may_restart = view.may_replace = false;
     view.recording.may_change = false;
   }
   return view;
 }
 
-void RunMonitor::restart() {
+void RunMonitor::restart(bool paused) {
   const std::lock_guard lock(mutex_);
-  if (!view_.may_restart || view_.is_restarting) return;
+  if (!(view_.may_restart || view_.may_replace) || view_.is_restarting) return;
   view_.is_restarting = true;
   view_.restart_problem.clear();
+  restart_is_paused_ = paused;
+  resume_requested_ = false;
+  condition_.notify_all();
+}
+
+void RunMonitor::resume() {
+  const std::lock_guard lock(mutex_);
+  resume_requested_ = true;
   condition_.notify_all();
 }
 
@@ -128,7 +140,7 @@ void RunMonitor::watch() {
     std::unique_lock lock(mutex_);
     watching_ = nullptr;
     view_.problem = problem;
-    view_.may_restart = false;
+    view_.may_restart = view_.may_replace = false;
     view_.recording.may_change = false;
     condition_.wait_for(lock, kReconnectPause, [this] { return is_over_; });
   }
@@ -141,6 +153,7 @@ void RunMonitor::receive(const v1::RunStatus& status) {
     received_ = Clock::now();
     view_.phase = toPhase(status.phase());
     view_.problem.clear();
+    view_.may_replace = restart_ == Restart::at_any_time && status.may_operate() && !is_over;
     readRecording(status, view_.recording);
     view_.absent.assign(status.robots_absent().begin(), status.robots_absent().end());
     if (!is_over) {
@@ -172,33 +185,47 @@ void RunMonitor::requestSourceOnce() {
 void RunMonitor::operate() {
   for (;;) {
     std::optional<bool> recording;
+    bool restarts = false, is_paused = false;
     {
       std::unique_lock lock(mutex_);
-      condition_.wait(lock, [this] { return view_.is_restarting || recording_request_ || is_over_; });
+      condition_.wait(lock,
+                      [this] { return view_.is_restarting || resume_requested_ || recording_request_ || is_over_; });
       if (is_over_) return;
       recording = std::exchange(recording_request_, std::nullopt);
+      restarts = view_.is_restarting;
+      is_paused = restart_is_paused_;
     }
     if (recording) {
       recordOnce(*recording);
+    } else if (restarts) {
+      restartOnce(is_paused);
     } else {
-      restartOnce();
+      resumeOnce();
     }
   }
 }
 
-void RunMonitor::restartOnce() {
-  WorldSource source;
+void RunMonitor::restartOnce(bool paused) {
+  std::optional<WorldSource> source;
   {
     const std::lock_guard lock(mutex_);
-    if (source_) source = *source_;
+    source = source_;
   }
   // The answer is received before the restart ends, so that no view offers a second one.
   const std::string problem = attempt([&](ControlPanel& panel) {
-    panel.load(source);
-    receive(panel.start());
+    if (!source) source = requestSource(environment_, replacing_).world;  // the run is not over
+    receive(panel.load(*source));
+    if (!paused) receive(panel.start());
   });
   const std::lock_guard lock(mutex_);
   view_.is_restarting = false;
+  view_.restart_problem = problem;
+}
+
+void RunMonitor::resumeOnce() {
+  const std::string problem = attempt([&](ControlPanel& panel) { receive(panel.start()); });
+  const std::lock_guard lock(mutex_);
+  resume_requested_ = false;
   view_.restart_problem = problem;
 }
 

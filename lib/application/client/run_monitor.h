@@ -20,11 +20,15 @@ class RunMonitor final : public RunSource {
   /// Time without a status after which the environment is considered gone.
   static constexpr std::chrono::milliseconds kSilence{1000};
 
-  explicit RunMonitor(ConnectOptions environment);
+  /// When restart() may replace the run.
+  enum class Restart { after_end, at_any_time };
+
+  explicit RunMonitor(ConnectOptions environment, Restart restart = Restart::after_end);
   ~RunMonitor() override;
 
   RunView newest() override;
-  void restart() override;
+  void restart(bool paused) override;
+  void resume() override;
   void setRecording(bool on) override;
 
  private:
@@ -34,22 +38,26 @@ class RunMonitor final : public RunSource {
   void receive(const v1::RunStatus& status);
   void requestSourceOnce();
   void operate();  ///< on its thread, as the functions that follow
-  void restartOnce();
+  void restartOnce(bool paused);
+  void resumeOnce();
   void recordOnce(bool on);
   /// Calls `call` with a control panel that the destructor cancels. @return why it has failed; empty if it has not
   template <typename Call>
   std::string attempt(const Call& call);
 
   ConnectOptions environment_;
-  CallCancellation viewing_;
-  std::mutex mutex_;  ///< guards the members that follow
+  Restart restart_;
+  CallCancellation viewing_, replacing_;  ///< one call each at a time: of the watcher, of the operator
+  std::mutex mutex_;                      ///< guards the members that follow
   std::condition_variable condition_;
   RunView view_;
   std::optional<Clock::time_point> received_;  ///< time of the last status
   std::optional<WorldSource> source_;          ///< of the run that is over; nullopt before its end
   ControlPanel* watching_ = nullptr;           ///< null while there is none, as the next one
   ControlPanel* operating_ = nullptr;
-  std::optional<bool> recording_request_;  ///< not executed yet
+  std::optional<bool> recording_request_;  ///< not executed yet, as the resumption
+  bool resume_requested_ = false;
+  bool restart_is_paused_ = false;  ///< of the restart that is requested
   bool is_over_ = false;
   std::thread watcher_, operator_;
 };

@@ -1,6 +1,7 @@
 #include "client/run_monitor.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 
@@ -62,14 +63,16 @@ class ScriptedEnvironment {
 
   std::atomic<int> starts = 0, records = 0;
   std::atomic<bool> answers_requests = true;  ///< to start and stop the recording
+  std::atomic<bool> is_silent = false;        ///< whether a status is sent only after a change
   grpc::Status refusal = grpc::Status::OK;    ///< answer to these requests
   std::string loaded;                         ///< text of the world
 
  private:
   struct Panel final : v1::ControlPanel::Service {
     explicit Panel(ScriptedEnvironment& e) : environment(e) {}
-    grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::RunStatus>* out) override {
-      return environment.watch(*out);
+    grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest* request,
+                       grpc::ServerWriter<v1::RunStatus>* out) override {
+      return environment.watch(*request, *out);
     }
     grpc::Status SetRecording(grpc::ServerContext*, const v1::SetRecordingRequest* request,
                               v1::RunStatus* reply) override {
@@ -108,7 +111,8 @@ class ScriptedEnvironment {
     }
   };
 
-  grpc::Status watch(grpc::ServerWriter<v1::RunStatus>& out) {
+  grpc::Status watch(const v1::WatchRequest& request, grpc::ServerWriter<v1::RunStatus>& out) {
+    const std::chrono::duration<double> period(request.min_interval_s());
     std::unique_lock lock(mutex_);
     while (!is_over_ && accepts_watchers_) {
       const v1::RunStatus status = status_;
@@ -116,7 +120,13 @@ class ScriptedEnvironment {
       lock.unlock();
       if (!out.Write(status)) return grpc::Status::OK;
       lock.lock();
-      changed_.wait(lock, [&] { return is_over_ || !accepts_watchers_ || version != version_; });
+      const auto has_changed = [&] { return is_over_ || !accepts_watchers_ || version != version_; };
+      // As an environment does, at least every period; an ended one needs no sign of life.
+      if (is_silent || status.phase() == v1::RUN_PHASE_ENDED) {
+        changed_.wait(lock, has_changed);
+      } else {
+        changed_.wait_for(lock, period, has_changed);
+      }
     }
     return {grpc::StatusCode::UNAVAILABLE, "the environment ends"};
   }
@@ -178,9 +188,10 @@ TEST_F(RunMonitorTest, ReportsPhaseAbsentRobotsAndRecording) {
 
 TEST_F(RunMonitorTest, ReportsThatTheEnvironmentIsGoneWhenItsStatusesEnd) {
   untilPhase(RunView::Phase::running);
-  // A status is sent only after a change: silence.
+  environment.is_silent = true;
   const RunView view = untilPhase(RunView::Phase::gone);
   EXPECT_FALSE(view.recording.may_change);
+  environment.is_silent = false;
   environment.send([](v1::RunStatus&) {});
   untilPhase(RunView::Phase::running);
 }
@@ -204,7 +215,6 @@ TEST_F(RunMonitorTest, StartsAndStopsTheRecording) {
   const RunView view = until(is(RecordingView::State::on));
   EXPECT_EQ(view.recording.file, "run.rawlog");
   EXPECT_EQ(view.recording.problem, "");
-  environment.send([](v1::RunStatus&) {});  // so that the environment is not gone
   until([](const RunView& now) { return now.recording.may_change; });
   monitor.setRecording(false);
   until(is(RecordingView::State::off));
@@ -220,7 +230,6 @@ TEST_F(RunMonitorTest, ReportsWhyTheRecordingCannotBeChangedUntilTheNextRequest)
   EXPECT_EQ(view.recording.state, RecordingView::State::off);
   EXPECT_FALSE(view.recording.is_changing);
   environment.refusal = grpc::Status::OK;
-  environment.send([](v1::RunStatus&) {});
   until([](const RunView& now) { return now.recording.may_change; });
   monitor.setRecording(true);
   EXPECT_EQ(monitor.newest().recording.problem, "");
@@ -247,11 +256,11 @@ TEST_F(RunMonitorTest, RequestsNoRecordingThatItMayNotChange) {
 
 TEST_F(RunMonitorTest, StartsTheNextRunWithTheWorldThatItReceivesAsAViewer) {
   untilPhase(RunView::Phase::running);
-  monitor.restart();
+  monitor.restart(false);
   EXPECT_FALSE(monitor.newest().is_restarting) << "the run is not over";
   environment.send([](v1::RunStatus& status) { status.set_phase(v1::RUN_PHASE_ENDED); });
   until([](const RunView& view) { return view.may_restart; });
-  monitor.restart();
+  monitor.restart(false);
   const RunView view = until([](const RunView& now) { return !now.is_restarting; });
   EXPECT_EQ(view.phase, RunView::Phase::running);
   EXPECT_FALSE(view.may_restart);

@@ -6,7 +6,9 @@
 #include "base/random.h"
 #include "distributed/testing/crowd_runs.h"
 #include "environment/testing/small_world.h"
+#include "robots/robot_model.h"
 #include "robots/robot_types.h"
+#include "sensors/camera_head.h"
 
 namespace robosim {
 namespace {
@@ -32,7 +34,7 @@ RobotTypes mixedTypes() {
            noise="lms200"/>
     <laser label="second" beams="7" field_of_view_deg="90" range_max_m="1.5" z_m="0.2" rate_hz="7" phase_s="0.13"
            latency_s="0.2"><noise divergence_deg="2" reach_m="1.5" drift_m="0.1"/></laser>)"),
-          type("bat", R"(<body length_m="0.45" width_m="0.3" height_m="0.35"/>
+          type("bat", R"(<body length_m="0.45" width_m="0.3" height_m="0.35" fiducial="5"/>
     <limits speed_max_mps="1" accel_mps2="2" decel_mps2="4" turn_max_degps="100" turn_accel_degps2="300"/>
     <sensors>
     <sonar range_max_m="2" beam_width_deg="30" noise="polaroid"><ring count="8" radius_m="0.15" z_m="0.15"/>
@@ -45,7 +47,45 @@ RobotTypes mixedTypes() {
     <infrared noise="gp2d12"><noise dropout="0.1"/><ring count="4" radius_m="0.1" z_m="0.1"/></infrared>
     <infrared range_max_m="1" label="exact"><ring count="3" radius_m="0.1" z_m="0.1"/></infrared>
     <range_and_bearing range_max_m="2" count="4"><noise/></range_and_bearing>
+    <omni_camera range_max_m="2" count="5"><noise/></omni_camera>
+    <fiducial range_max_m="1.5" count="3"/>
+    <light range_max_m="2"><ring count="4" radius_m="0.12" z_m="0.1"/></light>
+    <ground><at x_m="0.1"/><noise/></ground>
+    <imu><noise/></imu>
+    <encoders/>
+    <laser beams="9" field_of_view_deg="120" range_max_m="1.2" z_m="0.2" noise="urg04lx"/>)"),
+          type("crab", R"(<body radius_m="0.2" height_m="0.35"/>
+    <limits speed_max_mps="1" accel_mps2="3" decel_mps2="4" turn_max_degps="100" turn_accel_degps2="300"/>
+    <drive type="omni" lateral_max_mps="2"/>
+    <sensors>
+    <imu/>
+    <camera model="raycast" layers="rgb depth identity" width_px="9" height_px="6" z_m="0.3" range_max_m="1.2">
+      <noise std="3" exposure_std="0.1"/></camera>
+    <laser beams="9" field_of_view_deg="120" range_max_m="1.2" z_m="0.2" sweep_s="0.1" noise="urg04lx"/>)"),
+          type("tank", R"(<body radius_m="0.2" height_m="0.35"/>
+    <limits speed_max_mps="2" accel_mps2="3" decel_mps2="4" turn_max_degps="300" turn_accel_degps2="300"/>
+    <drive type="tracked" track_factor="1.6" icr_x_m="0.05"/>
+    <sensors>
     <laser beams="9" field_of_view_deg="120" range_max_m="1.2" z_m="0.2" noise="urg04lx"/>)")};
+}
+
+/// Gives the robots of a model the head of a camera, without its camera, whose pictures would need OpenGL.
+void addCameraHeads(Fleet& fleet, const std::string& model_name) {
+  std::shared_ptr<const RobotModel> model;
+  for (auto& robot : fleet.robots) {
+    if (robot.info.model != model_name) continue;
+    if (!model) {
+      RobotModel with_head = *robot.model;
+      CameraHeadLimits limits{-1, 1, -0.5, 0.5, 4, 1, 0.5, 2};
+      with_head.sensors.push_back(makeCameraHead({.limits = limits}));
+      auto infos = *with_head.sensor_infos;
+      infos.push_back(with_head.sensors.back()->info());
+      with_head.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
+      model = std::make_shared<const RobotModel>(std::move(with_head));
+    }
+    robot.model = model;
+    robot.info.sensors = model->sensor_infos;
+  }
 }
 
 /// A street of six robots' width with as many rows as given; some places have boxes, and one has gold.
@@ -70,10 +110,12 @@ LoadedWorld mixedCrowd(int rows, std::uint64_t seed) {
       addGold(made.world, x_m, y_m, 0.1);
     } else if (rng.below(16) == 0) {
       addWall(made.world, x_m, y_m, rng.uniform(0.1, 0.6), 0.2, rng.uniform(0, 3));
+      made.world.objects.back().body.light_cd = 2;
+      made.world.objects.back().body.fiducial = i;
     } else {
       RobotPlacement& placement = made.world.robots.emplace_back();
       placement.name = "r" + std::to_string(i);
-      placement.model = std::next(types.begin(), rng.below(3))->first;
+      placement.model = std::next(types.begin(), rng.below(5))->first;
       placement.controller = controllers[rng.below(4)];
       const auto off_m = [&] { return rng.uniform(-0.25, 0.25); };
       placement.world_from_robot = {x_m + off_m(), y_m + off_m(), rng.uniform(-M_PI, M_PI)};
@@ -82,6 +124,7 @@ LoadedWorld mixedCrowd(int rows, std::uint64_t seed) {
   ErrorList errors;
   made.fleet = buildFleet(made.world, "mixed_crowd.xml", types, {}, errors);
   errors.throwIfAny();
+  addCameraHeads(made.fleet, "tank");
   return made;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "distributed/rank_bytes.h"
+#include "environment/command_bytes.h"
 #include "environment/measurement_bytes.h"
 #include "environment/step_phases.h"
 
@@ -62,30 +63,14 @@ void forItems(StateReader& in, RobotRange from, const Read& read) {
 /// Unlike ==, distinguishes 0 and -0, as the digest of a run does.
 bool haveSameBits(const Command& a, const Command& b) {
   const auto numbers = [](const Command& command) {
-    return std::array{std::bit_cast<std::uint64_t>(command.speed_mps), std::bit_cast<std::uint64_t>(command.turn_radps),
-                      std::uint64_t{std::bit_cast<std::uint32_t>(command.laser_pan_rad)}};
+    return std::array{std::bit_cast<std::uint64_t>(command.speed_mps),
+                      std::bit_cast<std::uint64_t>(command.turn_radps),
+                      std::uint64_t{std::bit_cast<std::uint32_t>(command.laser_pan_rad)},
+                      std::bit_cast<std::uint64_t>(command.lateral_mps),
+                      std::bit_cast<std::uint64_t>(command.camera_head.aim.pan_rad),
+                      std::bit_cast<std::uint64_t>(command.camera_head.aim.tilt_rad)};
   };
   return a == b && numbers(a) == numbers(b);
-}
-
-void addCommand(StateWriter& writer, const Command& command) {
-  writer.addNumber(command.speed_mps);
-  writer.addNumber(command.turn_radps);
-  writer.addNumber(command.laser_pan_rad);
-  writer.addNumber(static_cast<std::uint8_t>(command.activity));
-  writer.addNumber(std::uint8_t{command.by_driver});
-  writer.addNumber(std::uint8_t{command.emergency_stop});
-  writer.addNumber(std::uint8_t{command.grip});
-}
-
-void takeCommand(StateReader& in, Command& command) {
-  command.speed_mps = in.takeNumber<double>();
-  command.turn_radps = in.takeNumber<double>();
-  command.laser_pan_rad = in.takeNumber<float>();
-  command.activity = in.takeActivity();
-  command.by_driver = in.takeFlag();
-  command.emergency_stop = in.takeFlag();
-  command.grip = in.takeFlag();
 }
 
 }  // namespace
@@ -110,7 +95,7 @@ bool OrdersWriter::addCommands(StateWriter& writer, const StepOrders& orders,
     for (const std::uint32_t i : known) {
       if (!hasChanged(orders, i)) continue;
       items.beginItem(i);
-      addCommand(writer, orders.commands[i]);
+      writeCommand(orders.commands[i], writer);
     }
   });
 }
@@ -156,13 +141,13 @@ void OrdersWriter::writeCommands(const StepOrders& orders, std::span<const std::
 
 void readCommands(std::string_view bytes, RobotRange from, const StepOrders& orders) {
   readRankBytes(bytes, "commands", [&](StateReader& in) {
-    forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
+    forItems(in, from, [&](std::size_t i) { orders.commands[i] = readCommand(in); });
   });
 }
 
 void readOrders(std::string_view bytes, RobotRange from, const StepOrders& orders) {
   readRankBytes(bytes, "orders", [&](StateReader& in) {
-    forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
+    forItems(in, from, [&](std::size_t i) { orders.commands[i] = readCommand(in); });
     // Of robots whose commands are not sent.
     forItems(in, from, [&](std::size_t i) {
       const Activity activity = in.takeActivity();
@@ -242,10 +227,15 @@ void writeMotion(const MotionState& motion, const StepOrders& orders, std::span<
         writer.addNumber(motion.turn_radps[i]);
         writer.addNumber(motion.last_motion[i].length_m);
         writer.addNumber(motion.last_motion[i].turn_rad);
+        if (!motion.drives.empty()) {
+          writer.addNumber(motion.last_motion[i].lateral_m);
+          writer.addNumber(motion.drives[i].lateral_mps);
+          writer.addNumber(motion.drives[i].steering_rad);
+        }
         writer.addNumber(motion.driven_m[i]);
         writer.addNumber(motion.stalled[i]);
         writer.addNumber(motion.laser_pan_rad[i]);
-        addCommand(writer, orders.commands[i]);
+        writeCommand(orders.commands[i], writer);
       }
     });
   });
@@ -261,10 +251,15 @@ void readMotion(std::string_view bytes, RobotRange from, const MotionState& moti
       motion.turn_radps[i] = in.takeNumber<double>();
       motion.last_motion[i].length_m = in.takeNumber<double>();
       motion.last_motion[i].turn_rad = in.takeNumber<double>();
+      if (!motion.drives.empty()) {
+        motion.last_motion[i].lateral_m = in.takeNumber<double>();
+        motion.drives[i].lateral_mps = in.takeNumber<double>();
+        motion.drives[i].steering_rad = in.takeNumber<double>();
+      }
       motion.driven_m[i] = in.takeNumber<double>();
       motion.stalled[i] = in.takeFlag() ? 1 : 0;
       motion.laser_pan_rad[i] = in.takeNumber<float>();
-      takeCommand(in, orders.commands[i]);
+      orders.commands[i] = readCommand(in);
       requireContents(read.empty() || read.back() < i, "the robots are not in ascending order");
       read.push_back(static_cast<std::uint32_t>(i));
     });

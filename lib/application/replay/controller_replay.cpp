@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 
 #include "base/interrupt.h"
@@ -17,10 +18,21 @@
 namespace robosim {
 namespace {
 
-double biggestDifference(const Command& a, const Command& b) {
-  if (a.activity != b.activity) return std::numeric_limits<double>::infinity();
-  return std::max({std::abs(a.speed_mps - b.speed_mps), std::abs(a.turn_radps - b.turn_radps),
-                   static_cast<double>(std::abs(a.laser_pan_rad - b.laser_pan_rad))});
+/// Of two commands to a robot, in the units of their fields; infinite if something that has no measure differs. What
+/// has no effect on the robot is not recorded, and not compared.
+double biggestDifference(const RobotInfo& robot, const Command& a, const Command& b) {
+  if (a.activity != b.activity || a.emergency_stop != b.emergency_stop || a.grip != b.grip ||
+      a.led_color != b.led_color) {
+    return std::numeric_limits<double>::infinity();
+  }
+  double biggest = std::max({std::abs(a.speed_mps - b.speed_mps), std::abs(a.turn_radps - b.turn_radps),
+                             static_cast<double>(std::abs(a.laser_pan_rad - b.laser_pan_rad))});
+  if (robot.limits.lateral_max_mps > 0) biggest = std::max(biggest, std::abs(a.lateral_mps - b.lateral_mps));
+  if (!cameraHeadIn(*robot.sensors)) return biggest;
+  const CameraHeadCommand &head_a = a.camera_head, &head_b = b.camera_head;
+  return std::max({biggest, std::abs(head_a.aim.pan_rad - head_b.aim.pan_rad),
+                   std::abs(head_a.aim.tilt_rad - head_b.aim.tilt_rad), std::abs(head_a.aim.zoom - head_b.aim.zoom),
+                   std::abs(head_a.pan_radps - head_b.pan_radps), std::abs(head_a.tilt_radps - head_b.tilt_radps)});
 }
 
 /// A controller running on the recording of one robot.
@@ -43,7 +55,7 @@ struct Replayed {
   void compare(const RecordedRobot& next, double tolerance) {
     if (!next.command) return;
     ++compared;
-    const double difference = biggestDifference(hardware.lastCommand(), *next.command);
+    const double difference = biggestDifference(hardware.info(), hardware.lastCommand(), *next.command);
     biggest = std::max(biggest, difference);
     if (difference <= tolerance) return;
     if (++different > 1) return;
@@ -84,7 +96,7 @@ ReplayResult replayToController(const ReplayArguments& arguments) {
   }
 
   const Interrupt interrupt;
-  RawlogReader reader(arguments.rawlog);
+  RawlogReader reader(arguments.rawlog, RawlogReader::Access::sequential, arguments.threads);
   RecordedSteps steps(reader, infos, note.period_s);
   bool first = true;
   double read_s = 0;

@@ -1,5 +1,6 @@
 #include "replay/export_recording.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -7,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/error_list.h"
 #include "base/log.h"
+#include "base/parallel_executor.h"
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "recording/observation_writer.h"
@@ -38,22 +40,31 @@ class ExportProgress {
 };
 
 RecordingContents contentsOf(const std::string& rawlog, const std::vector<RecordingOutput>& outs,
-                             ExportProgress& progress) {
-  RecordingParts parts{.table = false, .figure = false};
+                             const ViewLayers& layers, const RobotSelection& only, ExportProgress& progress,
+                             int threads) {
+  RecordingParts parts{.table = false, .figure = false, .page = false, .layers = layers, .only = only};
   for (const auto& out : outs) {
     if (out.format == RecordingFormat::mcap || out.format == RecordingFormat::rawlog) continue;
-    (out.format == RecordingFormat::picture ? parts.figure : parts.table) = true;
+    (out.format == RecordingFormat::picture ? parts.figure
+     : out.format == RecordingFormat::page  ? parts.page
+                                            : parts.table) = true;
   }
-  RecordingContents read = readRecording(rawlog, parts, [&](std::uint64_t entries) {
+  const auto show = [&](std::uint64_t entries) {
     progress.at([&] { return "reading: " + withCommas(entries) + " entries …"; });
-  });
+  };
+  RecordingContents read = readRecording(rawlog, parts, show, threads);
   if (!read.unread.empty()) {
     const std::size_t count = read.unread.size();
-    logWarning("export", rawlog + ": " + std::to_string(count) + (count == 1 ? " topic is" : " topics are") +
+    logWarning("export", rawlog + ": " + std::to_string(count) +
+                             (count == 1 ? " topic or kind of message is" : " topics or kinds of messages are") +
                              " not read, which robosim replay lists");
   }
   for (const auto& assumption : read.assumptions) logWarning("export", assumption);
   if (read.read_error) logWarning("export", *read.read_error);
+  if (read.page) {
+    for (const auto& assumption : read.assumptions) read.page->addRemark(assumption);
+    if (read.read_error) read.page->addRemark(*read.read_error);
+  }
   return read;
 }
 
@@ -90,28 +101,40 @@ class CsvColumns {
   std::vector<std::vector<std::size_t>> of_series_;
 };
 
-void writeCsv(const RecordingTable& table, AtomicFile& file, ExportProgress& progress) {
-  const CsvColumns columns(table);
-  std::string line = "step,time_s,robot";
-  for (const auto& name : columns.names()) line += "," + csvField(name);
-  file.write(line + "\n");
-  std::vector<std::string> fields(columns.names().size());
-  std::size_t written = 0;
-  for (const auto& row : table.rows()) {
-    progress.at(
-        [&] { return "writing: row " + withCommas(written) + " of " + withCommas(table.rows().size()) + " …"; });
-    for (auto& field : fields) field.clear();
-    for (const auto& [index, of_series] : row.observations) {
-      const RecordedSeries& series = table.series()[index];
-      for (std::size_t i = 0; i < series.columns.size(); ++i) {
-        std::string text = csvField(series.columns[i].value(of_series));
-        if (!text.empty()) fields[columns.of(index)[i]] = std::move(text);
-      }
+/// A row of the table, with its line end. @param fields of the columns, to be reused
+std::string lineOf(const RecordingTable::Row& row, const RecordingTable& table, const CsvColumns& columns,
+                   std::vector<std::string>& fields) {
+  fields.resize(columns.names().size());
+  for (auto& field : fields) field.clear();
+  for (const auto& [index, of_series] : row.observations) {
+    const RecordedSeries& series = table.series()[index];
+    for (std::size_t i = 0; i < series.columns.size(); ++i) {
+      std::string text = csvField(series.columns[i].value(of_series));
+      if (!text.empty()) fields[columns.of(index)[i]] = std::move(text);
     }
-    line = std::to_string(row.step) + "," + fixed(row.time_s, 7) + "," + csvField(row.robot);
-    for (const auto& field : fields) line += "," + field;
-    file.write(line + "\n");
-    ++written;
+  }
+  std::string line = std::to_string(row.step) + "," + fixed(row.time_s, 7) + "," + csvField(row.robot);
+  for (const auto& field : fields) line.append(",").append(field);
+  return line + "\n";
+}
+
+void writeCsv(const RecordingTable& table, AtomicFile& file, ExportProgress& progress, int threads) {
+  constexpr std::size_t kRowsAtATime = 4096;
+  const CsvColumns columns(table);
+  std::string head = "step,time_s,robot";
+  for (const auto& name : columns.names()) head += "," + csvField(name);
+  file.write(head + "\n");
+  const ParallelExecutor executor(threads);
+  std::vector<std::string> lines(kRowsAtATime);
+  const auto& rows = table.rows();
+  for (std::size_t first = 0; first < rows.size(); first += kRowsAtATime) {
+    progress.at([&] { return "writing: row " + withCommas(first) + " of " + withCommas(rows.size()) + " …"; });
+    const std::size_t count = std::min(kRowsAtATime, rows.size() - first);
+    executor.forChunks(count, 256, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::string> fields;
+      for (std::size_t i = begin; i < end; ++i) lines[i] = lineOf(rows[first + i], table, columns, fields);
+    });
+    for (std::size_t i = 0; i < count; ++i) file.write(lines[i]);
   }
 }
 
@@ -150,8 +173,8 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
 
 /// Writes all observations. @returns the file, without its name yet
 std::unique_ptr<ObservationWriter> writeRawlog(const std::string& recording, const std::filesystem::path& out,
-                                               ExportProgress& progress) {
-  RawlogReader reader(recording);
+                                               ExportProgress& progress, int threads) {
+  RawlogReader reader(recording, RawlogReader::Access::sequential, threads);
   auto writer = std::make_unique<ObservationWriter>(out, reader.pictureFolder());
   while (const auto observation = reader.next()) {
     writer->write(*observation);
@@ -163,7 +186,7 @@ std::unique_ptr<ObservationWriter> writeRawlog(const std::string& recording, con
 }  // namespace
 
 bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
-                     const FigurePage& page, const TopViewLayers& layers) {
+                     const FigurePage& page, const ViewLayers& layers, const RobotSelection& only, int threads) {
   std::vector<std::unique_ptr<AtomicFile>> files;  // null for MCAP and rawlogs
   for (const auto& out : outs) {
     const bool is_recording = out.format == RecordingFormat::mcap || out.format == RecordingFormat::rawlog;
@@ -172,26 +195,27 @@ bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
   ExportProgress progress(interrupt);
   std::vector<std::unique_ptr<ObservationWriter>> rawlogs;
   for (const auto& out : outs) {
-    if (out.format == RecordingFormat::rawlog) rawlogs.push_back(writeRawlog(rawlog, out.file, progress));
+    if (out.format == RecordingFormat::rawlog) rawlogs.push_back(writeRawlog(rawlog, out.file, progress, threads));
   }
   std::vector<McapExport> mcaps;
   for (const auto& out : outs) {
     if (out.format != RecordingFormat::mcap) continue;
-    mcaps.push_back(exportMcap(rawlog, out.file, [&](std::uint64_t steps) {
+    const auto show = [&](std::uint64_t steps) {
       progress.at([&] { return "MCAP: " + withCommas(steps) + " steps …"; });
-    }));
+    };
+    mcaps.push_back(exportMcap(rawlog, out.file, out.distribution, show, threads));
   }
   if (mcaps.size() == outs.size()) {
     if (mcaps[0].read_error) logWarning("export", *mcaps[0].read_error);
     for (const auto& mcap : mcaps) mcap.file->commit();
     return !mcaps[0].is_damaged;
   }
-  const RecordingContents contents = contentsOf(rawlog, outs, progress);
+  RecordingContents contents = contentsOf(rawlog, outs, layers, only, progress, threads);
   for (std::size_t i = 0; i < outs.size(); ++i) {
     if (!files[i]) continue;
     switch (outs[i].format) {
       case RecordingFormat::csv:
-        writeCsv(*contents.table, *files[i], progress);
+        writeCsv(*contents.table, *files[i], progress, threads);
         break;
       case RecordingFormat::npz:
         writeNpz(*contents.table, *files[i], progress);
@@ -201,7 +225,11 @@ bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
         break;  // above
       case RecordingFormat::picture:
         progress.at([] { return "drawing …"; });
-        files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file), page, layers));
+        files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file), page, layers, only));
+        break;
+      case RecordingFormat::page:
+        files[i]->write(
+            contents.page->html([&](const std::string& what) { progress.at([&] { return "page: " + what + " …"; }); }));
         break;
     }
     files[i]->finish();

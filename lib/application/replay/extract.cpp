@@ -1,11 +1,11 @@
 #include <iostream>
 
 #include "base/error_list.h"
+#include "base/file_kind.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text_table.h"
-#include "recording/mcap_recording.h"
 #include "recording/observation_writer.h"
 #include "recording/rawlog_reader.h"
 #include "replay/replay.h"
@@ -18,7 +18,7 @@ ReplayResult writeSelection(const ReplayArguments& arguments) {
     throw ConfigError(arguments.output + ": a selection is written as a rawlog; use a name that ends in .rawlog");
   }
   const Interrupt interrupt;
-  RawlogReader reader(arguments.rawlog);
+  RawlogReader reader(arguments.rawlog, RawlogReader::Access::sequential, arguments.threads);
   ObservationWriter writer(arguments.output, reader.pictureFolder());
   Selection selection(arguments);
   Progress progress;

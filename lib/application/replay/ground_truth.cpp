@@ -29,7 +29,7 @@ std::string poseLine(double time_s, const mrpt::poses::CPose3D& pose) {
 
 ReplayResult writeGroundTruth(const ReplayArguments& arguments) {
   const Interrupt interrupt;
-  RawlogReader reader(arguments.rawlog);
+  RawlogReader reader(arguments.rawlog, RawlogReader::Access::sequential, arguments.threads);
   AtomicFile file(arguments.ground_truth);
   Selection selection(arguments);
   Progress progress;

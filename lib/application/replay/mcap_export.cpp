@@ -1,11 +1,13 @@
 #include "replay/mcap_export.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "base/error_list.h"
 #include "recording/kept_readings.h"
+#include "recording/rawlog_reader.h"
 #include "recording/recorded_step.h"
 #include "recording/unpacked_file.h"
 #include "run/outputs/intervention_note.h"
@@ -19,8 +21,13 @@ namespace {
 /// Writes the steps of a recording.
 class McapSteps {
  public:
-  McapSteps(const std::string& rawlog, const std::filesystem::path& out)
-      : rawlog_(rawlog), out_(out), note_(RunNote::of(rawlog)), bytes_(rawlog) {
+  McapSteps(const std::string& rawlog, const std::filesystem::path& out, RosDistribution distribution, int threads)
+      : rawlog_(rawlog),
+        out_(out),
+        distribution_(distribution),
+        threads_(threads),
+        note_(RunNote::of(rawlog)),
+        bytes_(rawlog) {
     if (note_.world.text.empty()) {
       throw ConfigError(rawlog + ": does not contain its world, which is too large; export it as .csv or .npz");
     }
@@ -33,7 +40,7 @@ class McapSteps {
   }
 
   McapExport write(const std::function<void(std::uint64_t)>& progress) {
-    RawlogReader reader(rawlog_);
+    RawlogReader reader(rawlog_, RawlogReader::Access::sequential, threads_);
     RecordedSteps steps(reader, robots_, note_.period_s, Pictures::keep, [this](const std::string& comment) {
       auto added = addRecordedRobot(comment, fleet_);
       if (added) added_.push_back(*added);
@@ -61,13 +68,18 @@ class McapSteps {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (first[i].is_missing) continue;
       recorded.push_back(robots_[i]);
-      kept_.emplace_back(robots_[i].sensors);
+      addKept(robots_[i]);
     }
     RunNote note = note_;
     note.outcome = nullptr;
     const std::uint64_t start_ns = nanosecondsOf(SimTime{note_.first_step, note_.period_s}.seconds());
-    mcap_ = std::make_unique<McapRecording>(out_, recorded, start_ns);
+    mcap_ = std::make_unique<McapRecording>(out_, recorded, start_ns, distribution_);
     topics_->begin(*mcap_, note, {}, start_ns);
+  }
+
+  void addKept(const RobotInfo& robot) {
+    kept_.emplace_back(robot.sensors);
+    names_.push_back(robot.name);
   }
 
   /// The bytes of the rawlog up to a position.
@@ -92,18 +104,19 @@ class McapSteps {
       if (robot.is_missing) continue;
       if (index == kept_.size()) {  // added in this step
         mcap_->addRobot(added_.front(), time_ns);
-        kept_.emplace_back(added_.front().sensors);
+        addKept(added_.front());
         added_.erase(added_.begin());
       }
       KeptReadings& kept = kept_[index];
       if (isAbsent(robot)) {
         kept.forget();
+        poses_.erase(names_[index]);  // where it comes back, it has not driven
       } else {
         std::vector<std::uint8_t> are_kept;
         for (std::size_t i = 0; i < robot.readings.measurements.size(); ++i) {
           are_kept.push_back(kept.isKept(i, robot.readings) ? 1 : 0);
         }
-        mcap_->write(index, robot.readings, robot.world_from_robot, robot.command, are_kept);
+        mcap_->write(index, robot.readings, truthOf(index, robot), robot.command, are_kept);
       }
       if (!robot.readings.winner.empty()) winner = robot.readings.winner;
       ++index;
@@ -112,13 +125,33 @@ class McapSteps {
     mcap_->endStep(time_ns);
   }
 
+  /// The velocity is that from the pose of the step before: a rawlog has none.
+  std::optional<RobotTruth> truthOf(std::size_t index, const RecordedRobot& robot) {
+    if (!robot.world_from_robot) return std::nullopt;
+    const mrpt::math::TPose2D& pose = *robot.world_from_robot;
+    const auto [before, is_first] = poses_.try_emplace(names_[index], pose);
+    return RobotTruth{pose, velocityBetween(std::exchange(before->second, pose), pose, note_.period_s)};
+  }
+
   void noteChange(const std::string& comment, std::vector<std::string>& notes) {
     if (auto after = objectsAfter(comment, objects_.orThose(model_->world.objects))) objects_ = std::move(*after);
-    if (InterventionNote::parse(comment)) notes.push_back(comment);
+    const auto note = InterventionNote::parse(comment);
+    if (!note) return;
+    notes.push_back(comment);
+    // Robots that are placed do not drive there.
+    if (const auto* const add = std::get_if<AddRobot>(&note->intervention.change)) {
+      poses_[add->name] = add->world_from_robot;
+    } else if (const auto* const place = std::get_if<PlaceBody>(&note->intervention.change)) {
+      if (const auto placed = poses_.find(place->name); placed != poses_.end()) {
+        placed->second = {place->x_m, place->y_m, place->heading_rad.value_or(placed->second.phi)};
+      }
+    }
   }
 
   std::string rawlog_;
   std::filesystem::path out_;
+  RosDistribution distribution_;
+  int threads_;
   RunNote note_;
   UnpackedFile bytes_;
   Fleet fleet_;                   ///< of the recording as far as it has been read
@@ -126,7 +159,9 @@ class McapSteps {
   std::vector<RobotInfo> robots_;
   std::shared_ptr<const Model> model_;
   std::unique_ptr<McapRecording> mcap_;
-  std::vector<KeptReadings> kept_;  ///< by recorded robot
+  std::vector<KeptReadings> kept_;                    ///< by recorded robot
+  std::vector<std::string> names_;                    ///< likewise
+  std::map<std::string, mrpt::math::TPose2D> poses_;  ///< by name: the last true pose
   std::optional<WorldTopics> topics_;
   ChangedObjects objects_;
   std::uint64_t last_ns_ = 0;
@@ -134,9 +169,9 @@ class McapSteps {
 
 }  // namespace
 
-McapExport exportMcap(const std::string& rawlog, const std::filesystem::path& out,
-                      const std::function<void(std::uint64_t)>& progress) {
-  return McapSteps(rawlog, out).write(progress);
+McapExport exportMcap(const std::string& rawlog, const std::filesystem::path& out, RosDistribution distribution,
+                      const std::function<void(std::uint64_t)>& progress, int threads) {
+  return McapSteps(rawlog, out, distribution, threads).write(progress);
 }
 
 }  // namespace robosim

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "recording/mcap_recording.h"
+#include "recording/rawlog_reader.h"
 
 namespace robosim {
 
@@ -17,9 +18,11 @@ struct McapExport {
 };
 
 /// Writes the topics of a recording, and its bytes as they are.
+/// @param distribution whose messages are written
 /// @param progress called with the number of steps so far; may throw to end the export
+/// @param threads that decode the recording; the file is the same
 /// @throws NotOfRoboSim; ConfigError as RawlogReader and McapRecording do, or without a world; RecordingError
-McapExport exportMcap(const std::string& rawlog, const std::filesystem::path& out,
-                      const std::function<void(std::uint64_t)>& progress);
+McapExport exportMcap(const std::string& rawlog, const std::filesystem::path& out, RosDistribution distribution,
+                      const std::function<void(std::uint64_t)>& progress, int threads = threadsForReading());
 
 }  // namespace robosim

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error_list.h"
+#include "base/file_kind.h"
 #include "base/text_table.h"
 #include "mcap/reader.h"
-#include "recording/mcap_recording.h"
 #include "replay/replay.h"
 #include "run/json_text.h"
 

@@ -51,6 +51,15 @@ void addStatus(const CObservationRawDAQ& daq, RowBuilder& row) {
   row.addInteger("by_driver", status.command.by_driver ? 1 : 0);
   row.addInteger("emergency_stop", status.command.emergency_stop ? 1 : 0);
   row.addInteger("grip", status.command.grip ? 1 : 0);
+  row.addInteger("led_color", static_cast<int>(status.command.led_color));
+  if (status.has_camera_head) {
+    const auto& [aim, pan_radps, tilt_radps] = status.command.camera_head;
+    row.add("camera_pan_command_rad", aim.pan_rad);
+    row.add("camera_tilt_command_rad", aim.tilt_rad);
+    row.add("camera_zoom_command", aim.zoom);
+    row.add("camera_pan_radps", pan_radps);
+    row.add("camera_tilt_radps", tilt_radps);
+  }
   row.add("pan_rad", status.laser_pan_rad);
   row.addInteger("stalled", status.stalled ? 1 : 0);
   row.addInteger("too_far", status.is_too_far ? 1 : 0);

@@ -1,17 +1,13 @@
 #pragma once
-#include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <mrpt/obs/CObservation.h>
 
 #include "hardware/sensor_info.h"
+#include "replay/recorded_series.h"
 
 namespace robosim {
-
-/// Value of a column; none: nothing was measured, such as an absent echo.
-using ColumnValue = std::variant<std::monostate, float, double, std::int64_t, std::string>;
 
 /// The values of an observation with the names of their columns, which end in units: "range_3_m".
 struct ObservationRow {

@@ -25,8 +25,6 @@ using mrpt::math::TPose2D;
 using mrpt::obs::CObservation;
 
 constexpr double kPathSpacing_m = 0.05;
-constexpr double kFarthest_m = 1e6;       ///< poses beyond are not drawn; those of a run are within a world's bounds
-constexpr double kUnknownRadius_m = 0.2;  ///< of robots of other programs
 
 }  // namespace
 
@@ -72,18 +70,27 @@ void RecordingFigure::addPose(std::size_t index, const TPose2D& pose, bool is_tr
   Robot& robot = robots_[index];
   if (!(std::abs(pose.x) < kFarthest_m && std::abs(pose.y) < kFarthest_m && std::isfinite(pose.phi))) return;
   if (robot.has_truth && !is_truth) return;
-  if (is_truth && !robot.has_truth) robot.path.clear();
+  if (is_truth && !robot.has_truth) {
+    robot.path.clear();
+    robot.path_times_s.clear();
+  }
   robot.has_truth = is_truth;
   const std::optional<TPose2D> before = robot.pose;
   robot.pose = is_truth ? pose : startOfOdometry(robot.name) + pose;
   const double duration_s = time_s - std::exchange(robot.time_s, time_s);
   const TPoint2D at(robot.pose->x, robot.pose->y);
   if (!robot.path.empty() && before && isJump({before->x, before->y}, at, duration_s)) {
-    robot.path.emplace_back(before->x, before->y);
-    robot.path.push_back(kPathGap);
+    addPoint(robot, {before->x, before->y});
+    addPoint(robot, kPathGap);
   }
   const bool begins = robot.path.empty() || isGap(robot.path.back());
-  if (begins || (at - robot.path.back()).norm() >= kPathSpacing_m) robot.path.push_back(at);
+  if (begins || (at - robot.path.back()).norm() >= kPathSpacing_m) addPoint(robot, at);
+}
+
+/// At the time of the robot's pose.
+void RecordingFigure::addPoint(Robot& robot, const TPoint2D& at) {
+  robot.path.push_back(at);
+  robot.path_times_s.push_back(robot.time_s);
 }
 
 void RecordingFigure::addStatus(std::size_t index, const CObservation& observation, double time_s) {
@@ -96,8 +103,8 @@ void RecordingFigure::addStatus(std::size_t index, const CObservation& observati
 /// The path of a robot that leaves the world continues where it comes back.
 void RecordingFigure::leave(Robot& robot) {
   if (!robot.pose) return;
-  robot.path.emplace_back(robot.pose->x, robot.pose->y);
-  robot.path.push_back(kPathGap);
+  addPoint(robot, {robot.pose->x, robot.pose->y});
+  addPoint(robot, kPathGap);
   robot.pose.reset();
 }
 
@@ -147,25 +154,27 @@ LoadedWorld RecordingFigure::withoutWorld() const {
   return loaded;
 }
 
-std::string RecordingFigure::draw(PictureFormat format, const FigurePage& page, const TopViewLayers& layers) const {
+std::string RecordingFigure::draw(PictureFormat format, const FigurePage& page, ViewLayers layers,
+                                  const RobotSelection& only) const {
   const LoadedWorld loaded = world_ ? *world_ : withoutWorld();
+  layers.only = only.flagsIn(loaded.fleet, RobotSelection::Unmatched::refused);
   DrawnRun run;
   run.title = loaded.world.name + ", " + fixed(duration_s_, 1) + " s";
-  run.has_names = layers.names;
   run.objects = objects_;
   bool has_poses = false;
   std::map<std::size_t, std::size_t> drawn_index;  // by index in robots_
   for (const auto& of_world : loaded.fleet.robots) {
     const auto found = index_of_.find(of_world.info.name);
-    const Robot robot = found == index_of_.end() ? Robot() : robots_[found->second];
+    Robot robot = found == index_of_.end() ? Robot() : robots_[found->second];
     has_poses |= !robot.path.empty();
     if (found != index_of_.end()) drawn_index.emplace(found->second, run.world_from_robot.size());
-    if (layers.paths) run.paths.push_back(robot.path);
+    run.paths.push_back(std::move(robot.path));
+    run.path_times_s.push_back(std::move(robot.path_times_s));
     run.world_from_robot.push_back(robot.pose);
   }
   for (auto [time_s, event] : events_.all()) {
     const auto drawn = drawn_index.find(event.robot);
-    if (!layers.events || drawn == drawn_index.end()) continue;
+    if (drawn == drawn_index.end()) continue;
     event.robot = drawn->second;
     run.events.push_back(event);
   }
@@ -173,6 +182,7 @@ std::string RecordingFigure::draw(PictureFormat format, const FigurePage& page, 
     throw ConfigError(rawlog_ +
                       ": contains neither ground truth nor odometry; a figure requires a recording with poses");
   }
+  applyLayers(run, layers, loaded.world, loaded.fleet);
   return runFigure(format, loaded.world, loaded.fleet, run, page);
 }
 

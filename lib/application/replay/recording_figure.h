@@ -11,8 +11,9 @@
 #include "rendering/drawn_run.h"
 #include "rendering/figure_page.h"
 #include "rendering/picture_format.h"
-#include "rendering/top_view.h"
 #include "robots/fleet.h"
+#include "robots/robot_selection.h"
+#include "robots/view_layers.h"
 #include "run/outputs/run_note.h"
 
 namespace robosim {
@@ -22,6 +23,10 @@ namespace robosim {
 /// events.
 class RecordingFigure {
  public:
+  static constexpr double kFarthest_m =
+      1e6;  ///< poses beyond are not shown; those of a run are within a world's bounds
+  static constexpr double kUnknownRadius_m = 0.2;  ///< of robots of other programs
+
   /// @param rawlog its name, for errors and the title
   explicit RecordingFigure(std::string rawlog) : rawlog_(std::move(rawlog)) {}
 
@@ -34,9 +39,10 @@ class RecordingFigure {
   /// A comment, which may say where objects are. @throws ConfigError for an invalid one
   void addComment(const std::string& text);
 
-  /// @return the file @throws ConfigError for a recording without poses
-  /// @param layers of which the sensors have no effect
-  std::string draw(PictureFormat format, const FigurePage& page = {}, const TopViewLayers& layers = {}) const;
+  /// @return the file @throws ConfigError for a recording without poses, and for a selection without a robot
+  /// @param layers of which the sensors have no effect @param only the robots that are drawn
+  std::string draw(PictureFormat format, const FigurePage& page = {}, ViewLayers layers = {},
+                   const RobotSelection& only = {}) const;
 
  private:
   /// Poses and events of a robot.
@@ -44,10 +50,12 @@ class RecordingFigure {
     std::string name;
     bool has_truth = false;  ///< whether the poses are ground truth
     std::vector<mrpt::math::TPoint2D> path;
+    std::vector<double> path_times_s;         ///< of the points of the path
     std::optional<mrpt::math::TPose2D> pose;  ///< the last one; nullopt while the robot is absent
     double time_s = 0;                        ///< of that pose
   };
 
+  static void addPoint(Robot& robot, const mrpt::math::TPoint2D& at);
   std::size_t robotNamed(const std::string& name);
   void addPose(std::size_t robot, const mrpt::math::TPose2D& pose, bool is_truth, double time_s);
   static void leave(Robot& robot);

@@ -5,7 +5,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <string>
 #include <thread>
+#include <unordered_map>
 #include <utility>
 
 #include <mrpt/obs/CObservationComment.h>
@@ -80,16 +82,32 @@ class Counting {
       contents_.begins = std::min(contents_.begins.value_or(observation.timestamp), observation.timestamp);
     }
     ++contents_.observations;
-    Channel& channel = contents_.channels[{observation.sensorLabel, classOf(observation)}];
-    ++channel.count;
-    channel.span.add(selection_.time());
-    addWay(Label::parse(observation.sensorLabel).robot, observation);
+    Known& known = knownOf(observation);
+    ++known.channel->count;
+    known.channel->span.add(selection_.time());
+    addWay(known.robot, observation);
   }
 
   const Selection& selection() const { return selection_; }
   const Contents& contents() const { return contents_; }
 
  private:
+  /// What follows from the label and the class of an observation.
+  struct Known {
+    const mrpt::rtti::TRuntimeClassId* class_id = nullptr;
+    Channel* channel = nullptr;
+    std::string robot;
+  };
+
+  Known& knownOf(const CObservation& observation) {
+    Known& known = known_[observation.sensorLabel];
+    if (known.class_id != observation.GetRuntimeClass()) {
+      known = {observation.GetRuntimeClass(), &contents_.channels[{observation.sensorLabel, classOf(observation)}],
+               Label::parse(observation.sensorLabel).robot};
+    }
+    return known;
+  }
+
   void addWay(const std::string& robot, const CObservation& observation) {
     const auto pose = poseIn(observation);
     if (!pose) return;
@@ -112,6 +130,7 @@ class Counting {
   Selection selection_;
   Contents contents_;
   std::map<std::string, DrivenDistance> distance_;
+  std::unordered_map<std::string, Known> known_;  ///< by label, of the last class
 };
 
 nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& arguments, const RawlogReader& reader) {
@@ -122,7 +141,7 @@ nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& a
                               {"whole", !reader.readError()},
                               {"trouble", reader.readError().value_or("")},
                               {"left_out", reader.skippedEntries()}};
-  if (reader.isOfRos()) {
+  if (reader.isForeign()) {
     json["not_read"] = reader.unread();
     json["assumed"] = reader.assumptions();
   }
@@ -203,7 +222,7 @@ void print(const Contents& contents, const ReplayArguments& arguments, const Raw
 
 ReplayResult summarise(const ReplayArguments& arguments) {
   const Interrupt interrupt;
-  RawlogReader reader(arguments.rawlog);
+  RawlogReader reader(arguments.rawlog, RawlogReader::Access::sequential, arguments.threads);
   Counting counting(arguments);
   Progress progress;
   while (const auto observation = reader.next()) {
@@ -225,7 +244,7 @@ ReplayResult printObservations(const ReplayArguments& arguments) {
   const double speed = arguments.speed;
   const Interrupt interrupt;
   std::optional<RecordedSensors> sensors;
-  RawlogReader reader(arguments.rawlog);
+  RawlogReader reader(arguments.rawlog, RawlogReader::Access::sequential, arguments.threads);
   Selection selection(arguments);
   ObservationCsv csv;
   const auto start = Clock::now();

@@ -44,11 +44,14 @@ ColumnValue RecordedColumn::value(std::size_t row) const {
 }
 
 void RecordingTable::add(const mrpt::obs::CObservation& observation, double time_s, const SensorInfo* sensor) {
+  add(observation, time_s, ObservationRow::of(observation, sensor));
+}
+
+void RecordingTable::add(const mrpt::obs::CObservation& observation, double time_s, ObservationRow values) {
   if (!series_.empty() && time_s != last_s_) ++step_;
   last_s_ = time_s;
   const std::size_t index = findOrAddSeries(observation);
   const std::size_t row = series_[index].steps.size();
-  ObservationRow values = ObservationRow::of(observation, sensor);
   for (std::size_t i = 0; i < values.names.size(); ++i) {
     const bool is_text = std::holds_alternative<std::string>(values.values[i]);
     set(findOrAddColumn(index, i, values.names[i], is_text), row, std::move(values.values[i]));

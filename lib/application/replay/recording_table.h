@@ -10,33 +10,9 @@
 
 #include "hardware/sensor_info.h"
 #include "replay/observation_row.h"
+#include "replay/recorded_series.h"
 
 namespace robosim {
-
-/// A column of a series: numbers, or texts.
-struct RecordedColumn {
-  enum class Kind { unknown, integer, single, real, text };  ///< unknown: without any value so far
-
-  std::string name;                ///< ends in a unit: "range_3_m"
-  Kind kind = Kind::unknown;       ///< of all values
-  std::vector<double> numbers;     ///< by row; NaN for none; rows after the last have none
-  std::vector<std::string> texts;  ///< likewise, if kind is text
-
-  double number(std::size_t row) const {
-    return row < numbers.size() ? numbers[row] : std::numeric_limits<double>::quiet_NaN();
-  }
-  /// The value in its precision; none for NaN.
-  ColumnValue value(std::size_t row) const;
-};
-
-/// All observations of one label, as rows.
-struct RecordedSeries {
-  std::string label;          ///< "Pioneer1/sonar"; the class of an observation without label
-  std::string robot, sensor;  ///< of the label
-  std::vector<std::uint64_t> steps;
-  std::vector<double> times_s;          ///< as many as steps
-  std::vector<RecordedColumn> columns;  ///< in the order of their first appearance
-};
 
 /// The observations of a recording in memory: a series for each label, and the rows of all, grouped by robot and time.
 class RecordingTable {
@@ -57,8 +33,11 @@ class RecordingTable {
   /// @param sensor its description (RecordedSensors); null if unknown
   /// @throws ConfigError above kMaxValues
   void add(const mrpt::obs::CObservation& observation, double time_s, const SensorInfo* sensor = nullptr);
+  /// The same of an observation whose values are known.
+  void add(const mrpt::obs::CObservation& observation, double time_s, ObservationRow values);
 
   const std::vector<RecordedSeries>& series() const { return series_; }
+  std::vector<RecordedSeries> takeSeries() && { return std::move(series_); }
   const std::vector<Row>& rows() const { return rows_; }
 
  private:

@@ -37,6 +37,12 @@ std::string differ(const std::string& what, double recorded, double now) {
 std::optional<std::string> findDifference(const Measurement& recorded_measurement, const Measurement& measurement) {
   return std::visit(
       [&]<typename M>(const M& recorded) -> std::optional<std::string> {
+        if constexpr (std::is_same_v<M, Image>) {
+          const auto& then = recorded.raw;
+          const auto& again = std::get<Image>(measurement).raw;
+          const bool is_same = then && again ? *then == *again : !then == !again;
+          return is_same ? std::nullopt : std::optional<std::string>("its picture");
+        }
         if constexpr (!kIsReproducible<M>) return std::nullopt;
         const auto now = Description<M>::records(std::get<M>(measurement));
         std::optional<std::string> difference;
@@ -88,7 +94,7 @@ class RunAgain {
         verdict_(arguments.json ? std::cerr : std::cout),
         source_(sourceFrom(arguments, note)),
         run_(worldWithControllers(source_, note), options(note, arguments.observers), elsewhere(note)),
-        reader_(arguments.rawlog),
+        reader_(arguments.rawlog, RawlogReader::Access::sequential, arguments.threads),
         fleet_(run_.environment().fleet()),
         recorded_(reader_, robots(), note.period_s, Pictures::leave_out,
                   [this](const std::string& comment) { return addRecordedRobot(comment, fleet_); }) {}

@@ -24,6 +24,7 @@ struct ReplayArguments {
   std::vector<std::string> observers;  ///< of the repeated run, as TypeChoice::text()
   double tolerance = 1e-9;
   bool json = false;
+  int threads = threadsForReading();  ///< that decode the recording; the results are the same
 
   bool selects(const std::string& robot, const std::string& sensor) const;
 };

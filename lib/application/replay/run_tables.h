@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,7 +28,13 @@ class RunTables {
   const std::vector<RecordingOutput>& tables() const { return tables_; }
 
  private:
-  std::filesystem::path rawlog() const { return *folder_ / "run.rawlog"; }
+  /// Named as the first table, because a page has this title; where names with ".rawlog" are too long for a file,
+  /// "run".
+  std::filesystem::path rawlog() const {
+    constexpr std::size_t kMax_bytes = 240;
+    const std::string name = tables_.front().file.stem().string();
+    return *folder_ / ((name.size() <= kMax_bytes ? name : "run") + ".rawlog");
+  }
 
   std::vector<RecordingOutput> tables_;
   std::optional<TemporaryDirectory> folder_;

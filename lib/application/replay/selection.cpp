@@ -41,15 +41,19 @@ void failInterrupted(double read_s) {
 }
 
 bool Selection::takes(const mrpt::obs::CObservation& observation, const RawlogReader& reader) {
-  const Label label = Label::parse(observation.sensorLabel);
-  const std::string sensor = label.withinRobot();
+  const auto [known, is_new] = selects_.try_emplace(observation.sensorLabel);
+  if (is_new) {
+    const Label label = Label::parse(observation.sensorLabel);
+    const std::string sensor = label.withinRobot();
+    robots_.insert(label.robot);
+    sensors_.insert(sensor);
+    known->second = arguments_.selects(label.robot, sensor);
+  }
   time_s_ = times_.of(observation, reader.entries());
   is_empty_ = false;
   earliest_s_ = std::min(earliest_s_, time_s_);
   latest_s_ = std::max(latest_s_, time_s_);
-  robots_.insert(label.robot);
-  sensors_.insert(sensor);
-  const bool takes = arguments_.selects(label.robot, sensor) && !(arguments_.from_s && time_s_ < *arguments_.from_s) &&
+  const bool takes = known->second && !(arguments_.from_s && time_s_ < *arguments_.from_s) &&
                      !(arguments_.to_s && time_s_ > *arguments_.to_s);
   has_found_ = has_found_ || takes;
   return takes;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <unordered_map>
 
 #include "recording/observation_times.h"
 #include "recording/rawlog_reader.h"
@@ -31,7 +32,8 @@ class Selection {
   double time_s_ = 0;
   double earliest_s_ = std::numeric_limits<double>::infinity(), latest_s_ = -earliest_s_;
   bool is_empty_ = true, has_found_ = false;
-  std::set<std::string> robots_, sensors_;  ///< all names in the recording
+  std::set<std::string> robots_, sensors_;         ///< all names in the recording
+  std::unordered_map<std::string, bool> selects_;  ///< whether robot and sensor are selected, by label
 };
 
 }  // namespace robosim

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <variant>
 
+#include <mrpt/core/format.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
@@ -64,6 +66,7 @@ std::string statusInWords(const CObservation& observation) {
   if (status.command.by_driver) text += ", by a person";
   if (status.command.emergency_stop) text += ", emergency stop";
   if (status.command.grip) text += ", grip";
+  if (status.command.led_color != 0) text += mrpt::format(", LEDs #%06x", status.command.led_color);
   if (status.stalled) text += "; stalled";
   if (status.is_too_far) text += "; too far to win";
   if (status.has_won) text += "; has won";
@@ -161,6 +164,10 @@ std::string unsafeWords(const CObservation& observation, const SensorInfo* senso
     return "picture of " + std::to_string(picture->image.getWidth()) + " × " +
            std::to_string(picture->image.getHeight()) + " px";
   }
+  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation)) {
+    return "picture of " + std::to_string(scan->cameraParams.ncols) + " × " + std::to_string(scan->cameraParams.nrows) +
+           " px" + (scan->hasRangeImage ? " with depths" : "");
+  }
   if (const auto* daq = dynamic_cast<const CObservationRawDAQ*>(&observation)) return inWords(*daq, sensor);
   if (const auto pose = poseIn(observation)) {
     return "x " + fixed(pose->x, 3) + " m, y " + fixed(pose->y, 3) + " m, heading " + fixed(toDegrees(pose->phi), 1) +
@@ -173,7 +180,18 @@ std::string unsafeWords(const CObservation& observation, const SensorInfo* senso
 
 std::string inWords(const Command& command) {
   std::string text = fixed(command.speed_mps, 3) + " m/s, " + fixed(command.turn_radps, 3) + " rad/s";
+  if (command.lateral_mps != 0) text += ", " + fixed(command.lateral_mps, 3) + " m/s to the left";
   if (command.laser_pan_rad != 0) text += ", pan " + fixed(command.laser_pan_rad, 3) + " rad";
+  if (const CameraAim& aim = command.camera_head.aim; aim != CameraAim{}) {
+    text += ", camera to pan " + fixed(aim.pan_rad, 3) + " rad, tilt " + fixed(aim.tilt_rad, 3) + " rad, zoom " +
+            fixed(aim.zoom, 3);
+  }
+  if (const auto& [aim, pan_radps, tilt_radps] = command.camera_head; pan_radps != 0 || tilt_radps != 0) {
+    text += ", camera at " + fixed(pan_radps, 3) + " and " + fixed(tilt_radps, 3) + " rad/s";
+  }
+  if (command.grip) text += ", gripper closed";
+  if (command.led_color != 0) text += ", LEDs " + mrpt::format("0x%06x", command.led_color);
+  if (command.emergency_stop) text += ", emergency stop";
   if (command.activity == Activity::halted) text += ", halted";
   if (command.activity == Activity::found) text += ", found";
   if (command.activity == Activity::absent) text += ", absent";

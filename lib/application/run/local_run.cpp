@@ -39,7 +39,7 @@ ImageSourceMaker& imageSourceMaker() {
 }
 
 std::unique_ptr<ImageSource> imagesFor(const World& world, const Fleet& fleet, const RunOptions& options) {
-  if (!options.takes_pictures || !hasCamera(fleet)) return nullptr;
+  if (!options.takes_pictures || !needsImageSource(fleet)) return nullptr;
   if (!imageSourceMaker())
     throw ConfigError(
         "robots have cameras, but this program cannot render pictures; it must call "
@@ -155,7 +155,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     : options_(options),
       images_(imagesFor(world.world, world.fleet, options)),
       selected_images_(options.pictures_on_request ? static_cast<SelectedImages*>(images_.get()) : nullptr),
-      had_camera_(hasCamera(world.fleet)),
+      had_camera_(needsImageSource(world.fleet)),
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log, options.observers_supervise) {
@@ -166,7 +166,8 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
   }
   allowAdditions();
   checkTimeline();
-  if (readPictures(options.observers)) takePictures(std::vector<std::uint8_t>(environment_.robotCount(), 1));
+  takePictures(std::vector<std::uint8_t>(environment_.robotCount(), readPictures(options.observers) ? 1 : 0));
+  selectPictures({});
   observe();
 }
 
@@ -239,11 +240,8 @@ std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
   if (options_.check_added) {
     if (std::string fault = options_.check_added(robot); !fault.empty()) return fault;
   }
-  const auto& sensors = *robot.info.sensors;
-  const bool has_camera = std::any_of(sensors.begin(), sensors.end(),
-                                      [](const SensorInfo& sensor) { return sensor.kind == SensorKind::camera; });
   // Whatever is recorded or shown: that does not change a run.
-  if (has_camera && !had_camera_) {
+  if (needsImageSource(robot.info) && !had_camera_) {
     return "no robot had a camera at the start of the run, so that none with a camera can be added; use another robot "
            "type, or give the world a robot with a camera";
   }
@@ -255,7 +253,7 @@ std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
     return error.errors().front();
   }
   const ControllerType& type = controllers().typeOf(name);
-  for (const SensorKind kind : missingSensors(type, sensors)) {
+  for (const SensorKind kind : missingSensors(type, *robot.info.sensors)) {
     return "its controller " + type.name + " requires a sensor of kind " + nameOf(kind) +
            "; use another controller or robot type";
   }
@@ -281,7 +279,7 @@ void LocalRun::followAdditions() {
     addRobot(i, controllerOfAdded(robot));
   }
   additions_ = now;
-  if (selected_images_ && !selected_images_->selected.empty()) selected_images_->selected.resize(count);
+  if (selected_images_) selectPictures(std::move(selected_images_->selected));
   if (!taken_.empty()) taken_.resize(count);
 }
 
@@ -318,11 +316,12 @@ bool LocalRun::hasDrawnRandomNumbers() const {
 }
 
 void LocalRun::selectPictures(std::vector<std::uint8_t> robots) {
-  if (selected_images_) selected_images_->selected = std::move(robots);
+  if (selected_images_) selected_images_->selected = withPictureReaders(std::move(robots));
 }
 
-void LocalRun::takePictures(const std::vector<std::uint8_t>& robots) {
+void LocalRun::takePictures(const std::vector<std::uint8_t>& requested) {
   if (!selected_images_) return;
+  const std::vector<std::uint8_t> robots = withPictureReaders(requested);
   std::vector<std::uint8_t>& selected = selected_images_->selected;
   const std::size_t count = environment_.robotCount();
   if (taken_step_ != environment_.time().step) {
@@ -343,12 +342,12 @@ void LocalRun::takePictures(const std::vector<std::uint8_t>& robots) {
   selected.swap(only);
 }
 
-std::vector<std::uint8_t> LocalRun::pictureReaders() const {
-  std::vector<std::uint8_t> readers(environment_.robotCount());
+std::vector<std::uint8_t> LocalRun::withPictureReaders(std::vector<std::uint8_t> robots) const {
+  robots.resize(environment_.robotCount());
   for (const auto& local : local_robots_) {
-    if (local->index < readers.size()) readers[local->index] = needsPictures(local->controller_name);
+    if (local->index < robots.size() && local->reads_pictures) robots[local->index] = 1;
   }
-  return readers;
+  return robots;
 }
 
 void LocalRun::step(const std::function<void()>& record) {

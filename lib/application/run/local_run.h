@@ -40,7 +40,9 @@ struct RunOptions {
   /// is concerned.
   RobotCheck check_added = {};
   bool takes_pictures = true;  ///< otherwise cameras take none, which saves most of the time of a run with cameras
-  bool pictures_on_request = false;  ///< only the cameras of robots of LocalRun::selectPictures() take pictures
+  /// Only the cameras of robots of LocalRun::selectPictures() take pictures, and those of robots whose controller in
+  /// this process requires them.
+  bool pictures_on_request = false;
 };
 
 /// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
@@ -139,15 +141,14 @@ class LocalRun {
   ///@}
 
   /// @name With RunOptions::pictures_on_request
-  /// Flags by robot; initially none. Without cameras, and without this option, they have no effect.
+  /// Flags by robot; initially none. Robots whose controllers in this process require pictures are always among them.
+  /// Without cameras, and without this option, they have no effect.
   ///@{
   /// Robots whose cameras take pictures in the next step.
   void selectPictures(std::vector<std::uint8_t> robots);
   /// Takes the pictures of the present step of those robots for which it has not been done.
-  void takePictures(const std::vector<std::uint8_t>& robots);
+  void takePictures(const std::vector<std::uint8_t>& requested);
   ///@}
-  /// By robot: whether its controller in this process requires pictures.
-  std::vector<std::uint8_t> pictureReaders() const;
 
   Environment& environment() { return environment_; }
   const Environment& environment() const { return environment_; }
@@ -174,14 +175,18 @@ class LocalRun {
     Robot robot;
     std::string controller_name;  ///< as TypeChoice::text()
     std::unique_ptr<Controller> controller;
+    bool reads_pictures;  ///< whether the controller requires a camera or a blob finder
     double breakdown_s = std::numeric_limits<double>::infinity();  ///< simulated time
     LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c)
         : index(i),
           hardware(environment, i),
           robot(hardware),
           controller_name(std::move(name)),
-          controller(std::move(c)) {}
+          controller(std::move(c)),
+          reads_pictures(needsPictures(controller_name)) {}
   };
+  /// By robot: flags, and whether its controller in this process requires pictures.
+  std::vector<std::uint8_t> withPictureReaders(std::vector<std::uint8_t> robots) const;
   /// Makes the controller of a robot.
   void addRobot(std::size_t robot, const std::string& controller);
   void allowAdditions();
@@ -204,7 +209,7 @@ class LocalRun {
   /// By robot: whether the pictures of a step, with RunOptions::pictures_on_request, have been taken.
   std::vector<std::uint8_t> taken_;
   std::optional<std::uint64_t> taken_step_;
-  bool had_camera_;  ///< a robot, at the start
+  bool had_camera_;  ///< a robot, at the start, that needsImageSource()
   Environment environment_;
   ParallelExecutor workers_;
   std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware

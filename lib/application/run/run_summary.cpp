@@ -56,6 +56,7 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::optional
   if (why == EndedBy::time_limit) text += "; ended by the time limit";
   if (why == EndedBy::interrupt) text += "; interrupted";
   if (why == EndedBy::control_panel) text += "; ended from a control panel";
+  if (why == EndedBy::arcos_program) text += "; ended by an ARCOS program, which has loaded another map";
   if (why == EndedBy::robot_lost) text += "; ended because a robot was lost";
   if (why == EndedBy::window_closed) text += "; ended by closing the window";
   if (why == EndedBy::observer && observer_end) {
@@ -131,6 +132,8 @@ const char* nameOf(EndedBy why) {
       return "interrupted";
     case EndedBy::control_panel:
       return "control_panel";
+    case EndedBy::arcos_program:
+      return "arcos_program";
     case EndedBy::robot_lost:
       return "robot_lost";
     case EndedBy::window_closed:

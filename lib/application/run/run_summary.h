@@ -16,6 +16,7 @@ enum class EndedBy {
   time_limit,
   interrupt,
   control_panel,
+  arcos_program,  ///< by loading another map
   robot_lost,
   window_closed,
   observer,

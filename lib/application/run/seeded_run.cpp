@@ -7,7 +7,8 @@
 namespace robosim {
 
 std::optional<RunSummary> runSeeded(const LoadedWorld& world, const RandomStarts& starts, const SeededRun& how,
-                                    const std::function<bool()>& is_interrupted) {
+                                    const std::function<bool()>& is_interrupted,
+                                    const std::function<void(const Environment&)>& observe) {
   const auto start = std::chrono::steady_clock::now();
   LoadedWorld shuffled = world;
   setStartPoses(shuffled.fleet, starts.draw(how.seed));
@@ -18,14 +19,17 @@ std::optional<RunSummary> runSeeded(const LoadedWorld& world, const RandomStarts
   options.observers_log = false;
   options.breakdown_mean_s = how.breakdown_mean_s;
   options.takes_pictures = needPictures(shuffled.fleet, how.controller, how.observers);
+  options.pictures_on_request = !readPictures(how.observers);
   LocalRun run(std::move(shuffled), options);
   const auto is_time_up = [&] {
     const SimTime now = run.environment().time();
     return now.seconds() + now.period_s / 2 > how.time_s;
   };
+  if (observe) observe(run.environment());
   while (!run.isOver() && !is_time_up()) {
     if (is_interrupted()) return std::nullopt;
     run.step();
+    if (observe) observe(run.environment());
   }
   RunSummary summary = RunSummary::of(run);
   summary.world = world.world.name;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "environment/environment.h"
 #include "environment/start_poses.h"
 #include "run/run_summary.h"
 
@@ -23,9 +24,11 @@ struct SeededRun {
 /// Runs a world from random start poses on the calling thread. Cameras take pictures if something reads them
 /// (needPictures()).
 /// @param starts of the same world
+/// @param observe called before the first step and after each one; empty: nothing
 /// @return nullopt when interrupted
 /// @throws ConfigError, ControllerError, ObserverError
 std::optional<RunSummary> runSeeded(const LoadedWorld& world, const RandomStarts& starts, const SeededRun& how,
-                                    const std::function<bool()>& is_interrupted);
+                                    const std::function<bool()>& is_interrupted,
+                                    const std::function<void(const Environment&)>& observe = {});
 
 }  // namespace robosim

@@ -9,8 +9,10 @@
 namespace robosim {
 namespace {
 
+/// Of an ImageSource; ray-cast pictures are taken in the step.
 bool isOfPictures(const Sensor& sensor) {
-  return sensor.info().kind == SensorKind::camera || sensor.info().kind == SensorKind::blob_finder;
+  const SensorInfo& info = sensor.info();
+  return (info.kind == SensorKind::camera || info.kind == SensorKind::blob_finder) && !info.camera.isRaycast();
 }
 
 /// The cameras and blob finders of a robot model as one sensor, which measures in their slots.
@@ -32,6 +34,22 @@ class Cameras final : public Sensor {
   SensorInfo info_{.kind = SensorKind::values, .label = "cameras", .beams = {}};
 };
 
+template <typename Element>
+std::vector<Element> elementsAt(const std::vector<std::size_t>& places, const std::vector<Element>& all) {
+  std::vector<Element> some;
+  if (all.empty()) return some;
+  for (const std::size_t place : places) some.push_back(all[place]);
+  return some;
+}
+
+/// The view for the pictures at these places of a call of take().
+CameraView viewOf(const CameraView& camera, const std::vector<std::size_t>& places) {
+  CameraView view = camera;
+  view.moment = {elementsAt(places, camera.moment.seeds), elementsAt(places, camera.moment.turn_radps)};
+  view.aims = elementsAt(places, camera.aims);
+  return view;
+}
+
 }  // namespace
 
 void SelectedImages::take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
@@ -46,17 +64,8 @@ void SelectedImages::take(const CameraView& camera, const SeenWorld& seen, std::
   }
   if (chosen.empty()) return;
   std::vector<std::string> taken(chosen.size());
-  if (camera.moment.seeds.empty() && camera.moment.turn_radps.empty()) {
-    source_->take(camera, seen, chosen, taken);
-  } else {
-    CameraView view = camera;
-    view.moment = {};
-    for (const std::size_t place : places) {
-      view.moment.seeds.push_back(camera.moment.seeds[place]);
-      view.moment.turn_radps.push_back(camera.moment.turn_radps[place]);
-    }
-    source_->take(view, seen, chosen, taken);
-  }
+  const bool is_same_for_all = camera.moment.seeds.empty() && camera.moment.turn_radps.empty() && camera.aims.empty();
+  source_->take(is_same_for_all ? camera : viewOf(camera, places), seen, chosen, taken);
   for (std::size_t i = 0; i < places.size(); ++i) jpegs[places[i]] = std::move(taken[i]);
 }
 

@@ -23,6 +23,7 @@ class ArcosConnection {
   /// Continues what depends on time, and sends what the socket accepts.
   void poll(ArcosSession::Clock::time_point now);
   void sendCycle();
+  void send(const std::string& bytes);
 
   /// Why the connection has ended, or is to be closed; empty while it lasts.
   const std::string& endReason() const;
@@ -30,7 +31,6 @@ class ArcosConnection {
   ArcosSession& session() { return session_; }
 
  private:
-  void send(const std::string& bytes);
   void flush();
 
   const int socket_;

@@ -5,6 +5,7 @@
 
 #include "base/angle_units.h"
 #include "sensors/laser.h"
+#include "sensors/reflectance.h"
 
 namespace robosim {
 namespace {
@@ -23,11 +24,13 @@ double fieldOfView(const arcos::LaserRequest& laser) {
   return static_cast<double>(laser.beamCount() - 1) * laser.increment_centideg / 100 * kRadPerDeg;
 }
 
-/// The first laser of a model; its number of sensors if there is none.
-std::size_t laserSlot(const RobotModel& model) {
-  const auto found = std::find_if(model.sensors.begin(), model.sensors.end(),
-                                  [](const auto& sensor) { return sensor->info().kind == SensorKind::laser; });
-  return static_cast<std::size_t>(found - model.sensors.begin());
+/// A laser of a model by its number; the model's number of sensors if there is none.
+std::size_t laserSlot(const RobotModel& model, std::size_t number) {
+  std::size_t slot = 0;
+  for (; slot < model.sensors.size(); ++slot) {
+    if (model.sensors[slot]->info().kind == SensorKind::laser && number-- == 0) break;
+  }
+  return slot;
 }
 
 /// Whether a laser has the beams of a request.
@@ -40,9 +43,9 @@ bool answers(const SensorInfo& info, const arcos::LaserRequest& laser) {
          std::abs(last_rad - first_rad - fieldOfView(laser)) < kSame_rad;
 }
 
-std::shared_ptr<const Sensor> laserFor(const RobotModel& model, const arcos::LaserRequest& laser) {
+LaserOptions optionsFor(const RobotModel& model, std::size_t number, const arcos::LaserRequest& laser) {
   LaserOptions options = defaultLaser();
-  if (const std::size_t slot = laserSlot(model); slot < model.sensors.size()) {
+  if (const std::size_t slot = laserSlot(model, number); slot < model.sensors.size()) {
     const SensorInfo& info = model.sensors[slot]->info();
     const auto& mount = info.beams.front().robot_from_beam;
     options.robot_from_laser = {mount.x, mount.y, mount.z};
@@ -53,7 +56,7 @@ std::shared_ptr<const Sensor> laserFor(const RobotModel& model, const arcos::Las
   options.beams = static_cast<int>(laser.beamCount());
   options.field_of_view_rad = fieldOfView(laser);
   options.direction_rad = firstDirection(laser) + options.field_of_view_rad / 2;
-  return makeLaser(options);
+  return options;
 }
 
 std::uint16_t inMillimetres(float range_m, const SensorInfo& info) {
@@ -70,39 +73,74 @@ void convert(const Echoes& echoes, const SensorInfo& info, std::vector<std::uint
 
 ArcosLasers::ArcosLasers(Environment& environment) : environment_(environment) {}
 
-ArcosLasers::Group& ArcosLasers::groupOf(const RobotModel& model, const arcos::LaserRequest& laser) {
+bool ArcosLasers::has(const RobotModel& model, std::size_t number) {
+  return number == 0 || laserSlot(model, number) < model.sensors.size();
+}
+
+ArcosLasers::Group& ArcosLasers::groupOf(const RobotModel& model, const Request& request) {
+  const auto& laser = request.laser;
   const auto [group, is_new] =
-      groups_.try_emplace(Key{&model, laser.start_deg, laser.end_deg, laser.increment_centideg});
-  if (is_new) group->second.sensor = laserFor(model, laser);
+      groups_.try_emplace(Key{&model, request.number, laser.start_deg, laser.end_deg, laser.increment_centideg});
+  if (is_new) {
+    const LaserOptions options = optionsFor(model, request.number, laser);
+    group->second.sensor = makeLaser(options);
+    group->second.reflectance = makeReflectance(group->second.sensor->info());
+  }
   return group->second;
+}
+
+bool ArcosLasers::hasReflectors() const {
+  const auto& objects = environment_.objects();
+  return std::any_of(objects.begin(), objects.end(),
+                     [](const auto& object) { return object.body.reflectivity >= kReflectorReturn; });
+}
+
+void ArcosLasers::measure(const Sensor& sensor, const std::vector<std::uint32_t>& robots) {
+  for (const auto robot : robots) readings_[robot].measurements.assign(1, sensor.blank());
+  environment_.measure(sensor, robots, readings_);
 }
 
 void ArcosLasers::measure(std::span<const Request> requests) {
   for (auto& [key, group] : groups_) {
     group.robots.clear();
-    group.ranges.clear();
+    group.measured.clear();
+    group.scans.clear();
   }
+  const bool has_reflectors = hasReflectors();
   readings_.resize(environment_.robotCount());  // robots may have been added
   for (const Request& request : requests) {
     const RobotModel& model = *environment_.fleet().robots[request.robot].model;
-    const std::size_t slot = laserSlot(model);
-    if (slot < model.sensors.size() && answers(model.sensors[slot]->info(), request.laser)) {
+    const std::size_t slot = laserSlot(model, request.number);
+    const bool is_measured = slot < model.sensors.size() && answers(model.sensors[slot]->info(), request.laser);
+    if (is_measured) {
       const auto& measurements = environment_.state().readings[request.robot].measurements;
-      convert(std::get<Echoes>(measurements[slot]), model.sensors[slot]->info(), *request.ranges);
-      continue;
+      convert(std::get<Echoes>(measurements[slot]), model.sensors[slot]->info(), request.scan->ranges_mm);
     }
-    Group& group = groupOf(model, request.laser);
+    request.scan->reflectance.clear();
+    if (is_measured && !has_reflectors) continue;
+    Group& group = groupOf(model, request);
     group.robots.push_back(request.robot);
-    group.ranges.push_back(request.ranges);
-    readings_[request.robot].measurements.assign(1, group.sensor->blank());
+    group.scans.push_back(request.scan);
+    if (is_measured) group.measured.push_back(request.robot);
   }
   // Programs may request ever new scans; sensors without a request are not kept.
   std::erase_if(groups_, [](const auto& entry) { return entry.second.robots.empty(); });
   for (auto& [key, group] : groups_) {
-    environment_.measure(*group.sensor, group.robots, readings_);
+    const auto echoesOf = [this, &robots = group.robots](std::size_t i) -> const Echoes& {
+      return std::get<Echoes>(readings_[robots[i]].measurements.front());
+    };
+    if (group.measured.size() < group.robots.size()) measure(*group.sensor, group.robots);
     for (std::size_t i = 0; i < group.robots.size(); ++i) {
-      const auto& echoes = std::get<Echoes>(readings_[group.robots[i]].measurements.front());
-      convert(echoes, group.sensor->info(), *group.ranges[i]);
+      if (std::find(group.measured.begin(), group.measured.end(), group.robots[i]) != group.measured.end()) continue;
+      convert(echoesOf(i), group.sensor->info(), group.scans[i]->ranges_mm);
+    }
+    if (!has_reflectors) continue;
+    measure(*group.reflectance, group.robots);
+    for (std::size_t i = 0; i < group.robots.size(); ++i) {
+      for (const Echo& returned : echoesOf(i)) {
+        const bool is_reflector = returned.range_m >= static_cast<float>(kReflectorReturn);
+        group.scans[i]->reflectance.push_back(is_reflector ? arcos::kReflector : std::uint8_t{0});
+      }
     }
   }
 }

@@ -1,7 +1,9 @@
 #include "serving/arcos_server.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "base/seconds.h"
 #include "control/robot.h"
 #include "environment/local_hardware.h"
+#include "hardware/gnss_fix.h"
 #include "net/connection_acceptor.h"
 #include "net/host_port.h"
 #include "net/processor_budget.h"
@@ -21,6 +24,7 @@
 #include "serving/arcos_factory.h"
 #include "serving/arcos_lasers.h"
 #include "serving/new_arcos_connections.h"
+#include "world/georeference.h"
 
 namespace robosim {
 namespace {
@@ -37,19 +41,30 @@ constexpr double kNewConnectionsShare = 0.2;
 constexpr std::chrono::milliseconds kNewConnectionsBurst{20};  ///< of processor time
 constexpr int kReadsPerPoll = 4;  ///< of each program that drives a robot, up to 4 KiB each
 
+/// Map that programs have asked for.
+struct MapRequest {
+  std::string file;
+  std::vector<std::size_t> robots;  ///< whose programs await the answer
+  bool is_taken = false;            ///< by ArcosServer::takeMapRequest()
+};
+
 /// A robot of the run, its board, and the program that drives it.
 struct ServedRobot final : Simulator {
   ServedRobot(Environment& the_environment, std::size_t robot_index, const ArcosOptions& options,
-              std::function<void(const std::string&)> log)
+              std::optional<MapRequest>& the_map_request, std::function<void(const std::string&)> log)
       : environment(the_environment),
         index(robot_index),
         speed(options.speed),
+        may_load_maps(options.may_load_maps),
+        map_file(std::filesystem::path(options.map_file).filename().string()),
+        map_request(the_map_request),
         write_log(std::move(log)),
         hardware(the_environment, robot_index),
         robot(hardware),
         board(robot, *the_environment.fleet().robots[robot_index].model->arcos) {}
 
   const std::string& name() const { return robot.name(); }
+  const std::string& model() const { return environment.fleet().robots[index].info.model; }
 
   arcos::SimStat stat() const override {
     const double period_ms = environment.time().period_s * 1000;
@@ -61,14 +76,51 @@ struct ServedRobot final : Simulator {
             .x_mm = mm(pose.x),
             .y_mm = mm(pose.y),
             .z_mm = 0,
-            .heading_deg = static_cast<std::int32_t>(std::lround(pose.phi / kRadPerDeg))};
+            .heading_deg = static_cast<std::int32_t>(std::lround(pose.phi / kRadPerDeg)),
+            .position = position()};
+  }
+  /// By the robot's receiver, if it has one, else the true one.
+  std::optional<arcos::SimPosition> position() const {
+    const auto reference = georeferenceOf(environment.world());
+    if (!reference) return std::nullopt;
+    GnssFix fix;
+    const auto& sensors = *robot.info().sensors;
+    const auto receiver = std::find_if(sensors.begin(), sensors.end(), GnssFix::isOf);
+    if (receiver != sensors.end()) {
+      fix = GnssFix::from(
+          std::get<Values>(robot.readings().measurements[static_cast<std::size_t>(receiver - sensors.begin())]));
+    } else {
+      const auto& pose = environment.state().world_from_robot[index];
+      const GeoPosition at = reference->positionOf({pose.x, pose.y}, 0);
+      fix = {true, at.latitude_deg, at.longitude_deg, at.altitude_m};
+    }
+    constexpr double kE7 = 1e7, kCm = 100;
+    const auto rounded = [](double value) { return static_cast<std::int32_t>(std::lround(value)); };
+    return arcos::SimPosition{fix.is_valid, rounded(fix.latitude_deg * kE7), rounded(fix.longitude_deg * kE7),
+                              rounded(fix.altitude_m * kCm)};
   }
   void setTruePose(const arcos::SimPose& pose) override {
     placeAt({pose.x_mm / kMm, pose.y_mm / kMm, pose.heading_deg * kRadPerDeg});
   }
   void resetTruePose() override { placeAt(environment.fleet().robots[index].world_from_start); }
-  std::span<const std::uint16_t> scan() const override { return scan_mm; }
-  std::string mapFile() const override { return environment.world().name; }
+  arcos::Scan scan(std::size_t laser) const override { return scans[laser].view(); }
+  std::string mapFile() const override { return map_file.empty() ? environment.world().name : map_file; }
+  std::optional<arcos::SimMap> loadMap(const std::string& file) override {
+    const arcos::SimMap in_use{.file = mapFile()};
+    const std::string name = std::filesystem::path(file).filename().string();
+    if (!may_load_maps) {
+      log("a map is not loaded for a program, as others use this run: robosim arcos lets programs load maps");
+      return in_use;
+    }
+    if (name.empty() || name == map_file) return in_use;
+    if (!map_request) map_request.emplace().file = name;
+    if (map_request->file != name) {
+      log("the map " + name + " is not loaded: " + map_request->file + " is being loaded");
+      return in_use;
+    }
+    map_request->robots.push_back(index);
+    return std::nullopt;
+  }
   void log(const std::string& text) override { write_log("robot " + name() + ": " + text); }
   bool isAbsent() const { return environment.state().activity[index] == Activity::absent; }
   /// Places an absent robot at its start. @return false if that is not free. A robot that has left in this step stays
@@ -92,13 +144,16 @@ struct ServedRobot final : Simulator {
   Environment& environment;
   std::size_t index;
   double speed;
+  bool may_load_maps;
+  std::string map_file;
+  std::optional<MapRequest>& map_request;  ///< of all robots
   std::function<void(const std::string&)> write_log;
   LocalHardware hardware;
   Robot robot;
   ArcosBoard board;
   std::unique_ptr<ArcosConnection> connection;  ///< null without a program
   std::optional<std::uint64_t> left_at_step;
-  std::vector<std::uint16_t> scan_mm;
+  std::array<ArcosScan, arcos::kLasersMax> scans;
   std::uint16_t measured_interval_ms = 0;
 };
 
@@ -132,6 +187,7 @@ struct ArcosServer::Impl {
   Clock::time_point last_report = Clock::now();
   ArcosOptions options;
   Environment& environment;
+  std::optional<MapRequest> map_request;
   std::vector<std::unique_ptr<ServedRobot>> robots;
   std::optional<ConnectionAcceptor> acceptor;  ///< of a port per robot, or one for all
   NewArcosConnections new_connections;
@@ -166,7 +222,7 @@ struct ArcosServer::Impl {
     const auto log_request = [this](const std::string& line) { limited_log.write("requests of ARCOS programs", line); };
     for (const auto index : indices) {
       if (!robots.empty() && robots.back()->index >= index) continue;
-      robots.push_back(std::make_unique<ServedRobot>(environment, index, options, log_request));
+      robots.push_back(std::make_unique<ServedRobot>(environment, index, options, map_request, log_request));
     }
   }
 
@@ -265,6 +321,32 @@ struct ArcosServer::Impl {
     if (now - last_cycle > kIdleCycle) sendCycle(now);
   }
 
+  void refuseMap(const std::string& why) {
+    if (!map_request) return;
+    const MapRequest request = *std::exchange(map_request, std::nullopt);
+    limited_log.write("requests of ARCOS programs", "the map " + request.file + " is not loaded: " + why);
+    for (const auto& robot : robots) {
+      const bool awaits = std::find(request.robots.begin(), request.robots.end(), robot->index) != request.robots.end();
+      if (awaits && robot->connection) robot->connection->send(encode(arcos::SimMap{.file = robot->mapFile()}));
+    }
+  }
+
+  void takePrograms(Impl& previous) {
+    for (std::size_t i = 0; i < previous.robots.size(); ++i) {
+      ServedRobot& before = *previous.robots[i];
+      if (!before.connection || !before.connection->endReason().empty()) continue;
+      ServedRobot* const robot = options.isFactory() ? robotFor(0) : i < robots.size() ? robots[i].get() : nullptr;
+      if (!robot || robot->connection || robot->model() != before.model()) {
+        options.log("robot " + before.name() + ": disconnected " + before.connection->peer() +
+                    ": the map that has been loaded has no place for it");
+        continue;
+      }
+      robot->connection = std::move(before.connection);
+      robot->connection->session().continueWith({&robot->board, robot});
+      robot->connection->send(encode(arcos::SimMap{.is_loaded = true, .file = robot->mapFile()}));
+    }
+  }
+
   void decide() {
     poll();
     const auto now = Clock::now();
@@ -293,9 +375,13 @@ struct ArcosServer::Impl {
     std::vector<ArcosLasers::Request> requests;
     for (const auto& robot : robots) {
       if (!robot->connection || !robot->connection->session().isOpen()) continue;
-      const arcos::LaserRequest& laser = robot->connection->session().laser();
-      if (laser.form == arcos::LaserRequest::Form::off) continue;
-      requests.push_back({static_cast<std::uint32_t>(robot->index), laser, &robot->scan_mm});
+      const RobotModel& model = *environment.fleet().robots[robot->index].model;
+      for (std::size_t i = 0; i < arcos::kLasersMax; ++i) {
+        const arcos::LaserRequest& laser = robot->connection->session().lasers()[i];
+        robot->scans[i].ranges_mm.clear();
+        if (laser.form == arcos::LaserRequest::Form::off || !ArcosLasers::has(model, i)) continue;
+        requests.push_back({static_cast<std::uint32_t>(robot->index), i, laser, &robot->scans[i]});
+      }
     }
     lasers.measure(requests);
     for (const auto& robot : robots) {
@@ -309,6 +395,15 @@ ArcosServer::ArcosServer(const ArcosOptions& options, Environment& environment, 
     : impl_(std::make_unique<Impl>(options, environment, robots, previous ? previous->impl_.get() : nullptr)) {}
 
 ArcosServer::~ArcosServer() = default;
+
+std::optional<std::string> ArcosServer::takeMapRequest() {
+  auto& request = impl_->map_request;
+  if (!request || std::exchange(request->is_taken, true)) return std::nullopt;
+  return request->file;
+}
+
+void ArcosServer::refuseMap(const std::string& why) { impl_->refuseMap(why); }
+void ArcosServer::takePrograms(ArcosServer& previous) { impl_->takePrograms(*previous.impl_); }
 
 void ArcosServer::addRobots(const std::vector<std::size_t>& robots) { impl_->addRobots(robots); }
 

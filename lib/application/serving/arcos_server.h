@@ -2,6 +2,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct ArcosOptions {
   std::size_t factory_most = 0;           ///< robots of that type, with the one that the run has from its start
   bool has_all = false;                   ///< also serve robots that have a controller
   double speed = 1;                       ///< simulated seconds per second, for SIMSTAT
+  bool may_load_maps = false;             ///< programs may load another map, for all programs and clients of the run
+  std::string map_file = {};              ///< of the world, for the answers to requests for maps
   bool isFactory() const { return !factory.empty(); }
   std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
 };
@@ -39,6 +42,16 @@ class ArcosServer {
   ~ArcosServer();
   ArcosServer(const ArcosServer&) = delete;
   ArcosServer& operator=(const ArcosServer&) = delete;
+
+  /// The map that a program has asked for, once: the caller loads it, and answers by takePrograms() of the server of
+  /// the next run or by refuseMap(). nullopt if there is none, or it has been taken and is not answered.
+  std::optional<std::string> takeMapRequest();
+  /// Answers the programs that have asked for a map that the one in use stays, and logs why.
+  void refuseMap(const std::string& why);
+  /// Continues the sessions of the programs of a previous server with the robots of this one: at each port, if the
+  /// robot is of the same type; with a factory, as many as get a robot. All receive that the map has changed. The
+  /// others' connections end with that server.
+  void takePrograms(ArcosServer& previous);
 
   /// Serves robots that have been added to a run with a factory, if it does not yet.
   void addRobots(const std::vector<std::size_t>& robots);

@@ -1,5 +1,6 @@
 #include "serving/foxglove_serving.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -20,6 +21,8 @@ constexpr const char* kStepsLeft = "/run/steps_left";
 constexpr const char* kRecording = "/run/recording";
 constexpr const char* kWorld = "/run/world";
 constexpr const char* kSeed = "/run/seed";
+constexpr const char* kTime = "/run/time";
+constexpr const char* kDuration = "/run/duration";
 
 constexpr const char* kTrigger = "std_srvs/srv/Trigger";
 constexpr const char* kTriggerResponse = "bool success\nstring message\n";
@@ -96,20 +99,25 @@ FoxgloveServing::FoxgloveServing(const FoxgloveOptions& options, RobotDrivers& d
 
 FoxgloveServing::~FoxgloveServing() = default;
 
-void FoxgloveServing::begin(const Environment& environment, const std::string& run_id, std::uint64_t seed) {
-  world_ = environment.world().name;
-  seed_ = seed;
-  feed_.emplace(*outlet_, environment);
+void FoxgloveServing::begin(const FoxgloveRun& run) {
+  run_.emplace(run);
+  seek_s_.reset();
+  playback_.reset();
+  feed_.emplace(*outlet_, run.model, run.state, run.topics);
   std::vector<foxglove::Channel> channels;
   for (const auto& topic : feed_->topics()) {
     channels.push_back({topic.name, "cdr", topic.type->name, topic.type->definition(), "ros2msg"});
   }
-  server_.hub().offer({{"RoboSim: " + world_,
-                        {"time", "clientPublish", "parameters", "parametersSubscribe", "services"},
-                        {"cdr", "json"},
-                        run_id},
-                       std::move(channels),
-                       services()});
+  std::vector<std::string> capabilities{"time", "clientPublish", "parameters", "parametersSubscribe", "services"};
+  std::optional<std::uint64_t> duration_ns;
+  if (run.duration_s) {
+    capabilities.emplace_back("playbackControl");
+    duration_ns = nanosecondsOf(*run.duration_s);
+  }
+  server_.hub().offer(
+      {{"RoboSim: " + run.model->world.name, std::move(capabilities), {"cdr", "json"}, run.id, duration_ns},
+       std::move(channels),
+       services()});
 }
 
 void FoxgloveServing::poll(RunControl& control, const FoxgloveRecording& recording) {
@@ -117,10 +125,18 @@ void FoxgloveServing::poll(RunControl& control, const FoxgloveRecording& recordi
   if (const auto now = std::chrono::steady_clock::now(); now >= parameters_due_) {
     parameters_due_ = now + kParametersPause;
     hub.setParameters(parameters(control, recording));
+    const foxglove::PlaybackState now_played = playback(control);
+    if (run_->duration_s &&
+        (!playback_ || playback_->status != now_played.status || playback_->speed != now_played.speed)) {
+      playback_ = now_played;
+      hub.setPlayback(now_played);
+    }
   }
   for (const auto& request : hub.takeRequests()) {
     if (const auto* const of_parameters = std::get_if<foxglove::ParameterChange>(&request)) {
       change(*of_parameters, control, recording);
+    } else if (const auto* const of_playback = std::get_if<foxglove::PlaybackRequest>(&request)) {
+      play(*of_playback, control);
     } else {
       call(std::get<foxglove::ServiceRequest>(request), control);
     }
@@ -133,8 +149,12 @@ std::vector<foxglove::Parameter> FoxgloveServing::parameters(const RunControl& c
   std::vector<foxglove::Parameter> all{{kPaused, control.is_paused, ""},
                                        {kSpeed, control.speed, "float64"},
                                        {kStepsLeft, control.steps_left, ""},
-                                       {kWorld, world_, ""},
-                                       {kSeed, seed_, ""}};
+                                       {kWorld, run_->model->world.name, ""}};
+  if (run_->seed) all.push_back({kSeed, *run_->seed, ""});
+  if (run_->duration_s) {
+    all.push_back({kTime, run_->state.time.seconds(), "float64"});
+    all.push_back({kDuration, *run_->duration_s, "float64"});
+  }
   if (recording.is_possible) all.push_back({kRecording, recording.is_on, ""});
   for (const auto& [parameter, is_autonomous] : drivers_.autonomous()) all.push_back({parameter, is_autonomous, ""});
   return all;
@@ -162,12 +182,18 @@ std::string FoxgloveServing::setParameter(const foxglove::Client& client, const 
     if (why.empty()) hub.audit(client, name + (value.get<bool>() ? " on" : " off"));
     return why;
   }
-  if (name == kWorld || name == kSeed) return "cannot be changed during a run";
-  const bool is_known =
-      name == kPaused || name == kSpeed || name == kStepsLeft || (name == kRecording && recording.is_possible);
+  const bool is_played = run_->duration_s.has_value();
+  if (name == kWorld || (name == kSeed && run_->seed)) return "cannot be changed during a run";
+  if (name == kDuration && is_played) return "is that of the recording";
+  const bool is_known = name == kPaused || name == kSpeed || name == kStepsLeft ||
+                        (name == kRecording && recording.is_possible) || (name == kTime && is_played);
   if (!is_known) return "there is no such parameter";
-  if (!hub.may(client, Right::operate)) return kMayNotOperate;
-  if (name == kSpeed) {
+  if (std::string why = whyNotOperated(client); !why.empty()) return why;
+  if (name == kTime) {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) return "must be a number";
+    seek_s_ = std::clamp(value.get<double>(), 0.0, *run_->duration_s);
+    hub.audit(client, "time " + std::to_string(*seek_s_));
+  } else if (name == kSpeed) {
     if (!value.is_number() || !std::isfinite(value.get<double>())) return "must be a number";
     const auto speed = value.get<double>();
     if (std::string fault = speedFault(speed, options_.is_realtime); !fault.empty()) return fault;
@@ -198,12 +224,56 @@ std::string FoxgloveServing::setParameter(const foxglove::Client& client, const 
   return "";
 }
 
+std::string FoxgloveServing::whyNotOperated(const foxglove::Client& client) {
+  if (!run_->why_not_operated.empty()) return run_->why_not_operated;
+  return server_.hub().may(client, Right::operate) ? "" : kMayNotOperate;
+}
+
+std::optional<double> FoxgloveServing::takeSeek() {
+  if (seek_s_) feed_->restart();
+  return std::exchange(seek_s_, std::nullopt);
+}
+
+foxglove::PlaybackState FoxgloveServing::playback(const RunControl& control) const {
+  const double now_s = run_->state.time.seconds();
+  const bool has_ended = run_->duration_s && now_s >= *run_->duration_s;
+  return {has_ended           ? foxglove::PlaybackStatus::ended
+          : control.is_paused ? foxglove::PlaybackStatus::paused
+                              : foxglove::PlaybackStatus::playing,
+          nanosecondsOf(now_s), static_cast<float>(control.speed), false};
+}
+
+void FoxgloveServing::play(const foxglove::PlaybackRequest& request, RunControl& control) {
+  foxglove::Hub& hub = server_.hub();
+  const auto& [plays, speed, seek_ns, id] = request.control;
+  std::string why = whyNotOperated(request.client);
+  if (why.empty()) why = std::isfinite(speed) ? speedFault(speed, options_.is_realtime) : "the speed must be a number";
+  std::optional<double> own_seek_s;
+  if (why.empty()) {
+    control.speed = speed;
+    control.pause(!plays);
+    // The end of a recording is at most a step away.
+    if (seek_ns) own_seek_s = seek_s_ = std::min(static_cast<double>(*seek_ns) * 1e-9, *run_->duration_s);
+    hub.audit(request.client, std::string(plays ? "start" : "pause") + ", speed " + std::to_string(speed) +
+                                  (own_seek_s ? ", time " + std::to_string(*own_seek_s) : ""));
+  } else {
+    hub.sendStatus(request.client.id, StatusLevel::error, "playback: " + why);
+  }
+  foxglove::PlaybackState state = playback(control);
+  if (own_seek_s) {
+    state.time_ns = nanosecondsOf(*own_seek_s);
+    state.did_seek = true;
+    if (plays || *own_seek_s < *run_->duration_s) {
+      state.status = plays ? foxglove::PlaybackStatus::playing : foxglove::PlaybackStatus::paused;
+    }
+  }
+  playback_ = state;
+  hub.setPlayback(state, &request);
+}
+
 void FoxgloveServing::call(const foxglove::ServiceRequest& request, RunControl& control) {
   foxglove::Hub& hub = server_.hub();
-  if (!hub.may(request.client, Right::operate)) {
-    hub.refuse(request, kMayNotOperate);
-    return;
-  }
+  if (const std::string why = whyNotOperated(request.client); !why.empty()) return hub.refuse(request, why);
   if (request.encoding != "cdr" && request.encoding != "json") {
     hub.refuse(request, "the encoding must be cdr or json");
     return;

@@ -20,6 +20,17 @@ struct FoxgloveOptions {
   bool is_realtime = false;  ///< the run keeps real time: its speed has a limit
 };
 
+/// What is served.
+struct FoxgloveRun {
+  std::shared_ptr<const Model> model;
+  const State& state;  ///< must outlive its time here
+  std::string id;      ///< another one for each run
+  std::optional<std::uint64_t> seed = {};
+  FeedOptions topics = {};
+  std::optional<double> duration_s = {};  ///< of a recording that is played; clients go to any time of it
+  std::string why_not_operated = {};      ///< why no client can pause it; empty if one with the right can
+};
+
 /// Recording of a run, as its clients see and change it.
 struct FoxgloveRecording {
   bool is_possible = false, is_on = false;
@@ -43,10 +54,12 @@ class FoxgloveServing {
 
   int port() const { return server_.port(); }
   /// Serves a run instead of the one before, or the robots that have been added to it, too: clients receive the list of
-  /// topics again. @param run must outlive its time here @param run_id another one for each run
-  void begin(const Environment& environment, const std::string& run_id, std::uint64_t seed);
+  /// topics again.
+  void begin(const FoxgloveRun& run);
   /// Handles requests, and sends the state to new clients. Between steps, at least every ServingState::kPollInterval.
   void poll(RunControl& control, const FoxgloveRecording& recording);
+  /// The time of a recording to which a client wants to go; nullopt: none. The next step is sent as the first is.
+  std::optional<double> takeSeek();
   /// Sends the messages of a step.
   void stepped() { feed_->stepped(); }
   /// As TopicFeed
@@ -59,6 +72,9 @@ class FoxgloveServing {
   std::string setParameter(const foxglove::Client& client, const foxglove::Parameter& parameter, RunControl& control,
                            const FoxgloveRecording& recording);
   void call(const foxglove::ServiceRequest& request, RunControl& control);
+  void play(const foxglove::PlaybackRequest& request, RunControl& control);
+  std::string whyNotOperated(const foxglove::Client& client);
+  foxglove::PlaybackState playback(const RunControl& control) const;
 
   FoxgloveOptions options_;
   RobotDrivers& drivers_;
@@ -66,8 +82,9 @@ class FoxgloveServing {
   foxglove::Server server_;
   std::unique_ptr<Outlet> outlet_;
   std::optional<TopicFeed> feed_;
-  std::string world_;
-  std::uint64_t seed_ = 0;
+  std::optional<FoxgloveRun> run_;
+  std::optional<double> seek_s_;
+  std::optional<foxglove::PlaybackState> playback_;       ///< as the clients know it
   std::chrono::steady_clock::time_point parameters_due_;  ///< when clients are informed of changes
 };
 

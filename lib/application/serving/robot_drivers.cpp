@@ -131,7 +131,8 @@ std::string RobotDrivers::whyNot(const RobotDriver& driver, const std::string& t
 }
 
 std::string RobotDrivers::drive(const RobotDriver& driver, const std::string& topic, const ros::Twist& twist) {
-  if (!std::isfinite(twist.linear.x) || !std::isfinite(twist.angular.z)) return "speeds must be finite";
+  if (!std::isfinite(twist.linear.x) || !std::isfinite(twist.linear.y) || !std::isfinite(twist.angular.z))
+    return "speeds must be finite";
   const std::lock_guard lock(mutex_);
   if (std::string why = refusal(driver, find(topic)); !why.empty()) return why;
   Driven& robot = by_topic_.at(topic);
@@ -143,7 +144,7 @@ std::string RobotDrivers::drive(const RobotDriver& driver, const std::string& to
     robot.remote->setAutonomous(false);
   }
   robot.last_message = now_();
-  robot.remote->obey(driveOrder(twist.linear.x, twist.angular.z));
+  robot.remote->obey(driveOrder(twist.linear.x, twist.angular.z, {}, twist.linear.y));
   return "";
 }
 

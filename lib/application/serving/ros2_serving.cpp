@@ -32,7 +32,7 @@ void Ros2Serving::begin(const Environment& environment) {
 void Ros2Serving::addRobots() { offer(false); }
 
 void Ros2Serving::offer(bool is_another_run) {
-  feed_.emplace(outlet_, *environment_, options_.frames);
+  feed_.emplace(outlet_, environment_->model(), environment_->state(), FeedOptions{.form = options_.form});
   outlet_.offer(feed_->topics(), is_another_run);
   if (changes_) changes_->addRobots(environment_->robotNames());
   if (!options_.may_drive) return;

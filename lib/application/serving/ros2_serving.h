@@ -22,7 +22,7 @@ struct Ros2Options {
   /// Joins the domain; of the library that implements it.
   std::function<std::unique_ptr<dds::Participant>(const dds::Options&)> join;
   std::string name_space;  ///< as of ros2Namespace()
-  FrameNames frames = FrameNames::prefixed;
+  TopicForm form;
   bool may_drive = true;       ///< any program of the domain may drive robots
   bool may_supervise = false;  ///< any program of the domain may place, add and remove robots and objects
 };

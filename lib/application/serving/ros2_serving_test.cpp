@@ -169,7 +169,7 @@ TEST_F(Ros2ServingTest, PutsANamespaceBeforeAllTopicsButThoseOfTimeAndFrames) {
 }
 
 TEST_F(Ros2ServingTest, HasATreeOfFramesForEachRobotIfRequested) {
-  ros2.frames = FrameNames::plain;
+  ros2.form.frames = FrameNames::plain;
   ros2.name_space = "/team";
   begin();
   EXPECT_EQ(domain.writersOf("/tf"), 0);

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "base/data_folders.h"
+#include "base/file_kind.h"
 #include "base/log.h"
 #include "base/seconds.h"
 #include "control/controller_error.h"
@@ -123,17 +125,15 @@ class WorldRun::OneRun {
     }
     networked.insert(networked.end(), are_networked.begin(), are_networked.end());
     run_info.addRobots(are_networked);
-    has_cameras = hasCamera(run.environment().fleet());
-    picture_readers = run.pictureReaders();
+    has_cameras = needsImageSource(run.environment().fleet());
   }
 
-  /// Selects the robots whose cameras take pictures: those of clients, and those that the run itself needs.
+  /// Selects the robots whose cameras take pictures: those of clients, or all for a recording or an observer.
   void requestPictures(std::vector<std::uint8_t> robots) {
     if (!has_cameras) return;
     robots.resize(run.environment().robotCount());
     const RunRecording* recording = outputs.recording();
     if ((recording && recording->isOn()) || observers_read_pictures) robots.assign(robots.size(), 1);
-    robots = either(std::move(robots), picture_readers);
     run.takePictures(robots);
     run.selectPictures(std::move(robots));
   }
@@ -168,9 +168,8 @@ class WorldRun::OneRun {
   RunInfo run_info;
   RunOutputs outputs;
   RunReport report;
-  bool has_cameras = hasCamera(run.environment().fleet());
+  bool has_cameras = needsImageSource(run.environment().fleet());
   bool observers_read_pictures = readPictures(arguments.run.observers);
-  std::vector<std::uint8_t> picture_readers = run.pictureReaders();
   std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   bool is_finished = false;  ///< its outputs are written
@@ -179,9 +178,17 @@ class WorldRun::OneRun {
 
 class WorldRun::Prepared final : public PreparedRun {
  public:
-  explicit Prepared(std::shared_ptr<OneRun> r) : run(std::move(r)) {}
+  explicit Prepared(std::shared_ptr<std::atomic<bool>> has_next) : has_next_(std::move(has_next)) {}
+  ~Prepared() override { *has_next_ = false; }
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+
   std::shared_ptr<OneRun> run;
+  bool keeps_programs = false;         ///< of ARCOS, which have asked for it
   std::unique_ptr<ArcosServer> arcos;  ///< of makeReady(); null without ARCOS
+
+ private:
+  std::shared_ptr<std::atomic<bool>> has_next_;
 };
 
 WorldRun::WorldRun(WorldRunOptions options)
@@ -202,7 +209,9 @@ std::shared_ptr<const RunInfo> WorldRun::runInfo() const { return {run_, &run_->
 /// Opens the ports for a run, and shares those that the present run has open. Null without ARCOS.
 std::unique_ptr<ArcosServer> WorldRun::makeArcosServer(OneRun& run) const {
   if (!options_.arcos) return nullptr;
-  return std::make_unique<ArcosServer>(*options_.arcos, run.run.environment(), run.arcosRobots(), arcos_.get());
+  ArcosOptions options = *options_.arcos;
+  options.map_file = run.arguments.world;
+  return std::make_unique<ArcosServer>(options, run.run.environment(), run.arcosRobots(), arcos_.get());
 }
 
 void WorldRun::logArcosPorts() const {
@@ -250,14 +259,17 @@ std::vector<std::string> WorldRun::whyNotDriven() const {
 }
 
 void WorldRun::poll(RunControl& control) {
-  if (arcos_) arcos_->poll();
+  if (arcos_) {
+    arcos_->poll();
+    loadRequestedMap();
+  }
   if (!live_) return;
   requestPictures(pictured_);  // of clients that have subscribed since the last call
   const RecordingStatus status = recording();
   live_->poll(control,
               {status.state != RecordingStatus::State::none, status.state == RecordingStatus::State::on,
                [this](bool on) { setRecording(on); }},
-              [this](const Intervention& change) {
+              isOver(), [this](const Intervention& change) {
                 if (isOver()) return std::string("the run is over, and its result stands; load the next one");
                 return environment().apply(change);
               });
@@ -313,8 +325,15 @@ void WorldRun::ends(const RunReport& report) {
 }
 
 std::unique_ptr<PreparedRun> WorldRun::prepare(const WorldSource& source) const {
+  return prepareFrom([&] { return source; });
+}
+
+std::unique_ptr<WorldRun::Prepared> WorldRun::prepareFrom(const std::function<WorldSource()>& read) const {
+  if (has_next_->exchange(true)) throw ConfigError("another world is being loaded; try again");
+  auto next = std::make_unique<Prepared>(has_next_);
   try {
-    return std::make_unique<Prepared>(load(source, number_ + 1));
+    next->run = load(read(), number_ + 1);
+    return next;
     // Errors of the next run, after which the current run continues.
   } catch (const RecordingError& error) {
     throw ConfigError(error.what());
@@ -325,6 +344,47 @@ std::unique_ptr<PreparedRun> WorldRun::prepare(const WorldSource& source) const 
   }
 }
 
+/// Programs of ARCOS have no passwords: they may load what lies beside the map in use, and the maps of RoboSim.
+void WorldRun::loadRequestedMap() {
+  if (of_program_.valid()) return;
+  const auto name = arcos_->takeMapRequest();
+  if (!name) return;
+  std::filesystem::path file = std::filesystem::path(run_->arguments.world).parent_path() / *name;
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) {
+    const auto found = findDataFile("maps/" + *name);
+    if (!found) {
+      return arcos_->refuseMap("there is no such file beside the map in use, nor among RoboSim's maps");
+    }
+    file = *found;
+  }
+  options_.arcos->log("an ARCOS program loads the map " + file.string() +
+                      "; the current run continues until it is built");
+  of_program_ = std::async(std::launch::async, [this, file]() -> std::unique_ptr<PreparedRun> {
+    RunArguments arguments = options_.of_run;
+    arguments.world = file.string();
+    auto next = prepareFrom([&] {
+      requireKind(file, kWorldKinds);
+      return readRunSource(arguments);
+    });
+    next->keeps_programs = true;
+    return next;
+  });
+}
+
+std::unique_ptr<PreparedRun> WorldRun::takeRequestedRun() {
+  if (!of_program_.valid() || of_program_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return nullptr;
+  try {
+    auto next = of_program_.get();
+    makeReady(*next);
+    return next;
+  } catch (const std::exception& error) {  // the current run continues
+    arcos_->refuseMap(error.what());
+    return nullptr;
+  }
+}
+
 void WorldRun::makeReady(PreparedRun& next) const {
   auto& prepared = static_cast<Prepared&>(next);
   prepared.arcos = makeArcosServer(*prepared.run);
@@ -332,7 +392,8 @@ void WorldRun::makeReady(PreparedRun& next) const {
 
 void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
   auto& prepared = static_cast<Prepared&>(*next);
-  run_->finish(EndedBy::control_panel);
+  run_->finish(prepared.keeps_programs ? EndedBy::arcos_program : EndedBy::control_panel);
+  if (prepared.keeps_programs) prepared.arcos->takePrograms(*arcos_);
   arcos_ = std::move(prepared.arcos);  // the previous one uses the run that is replaced
   const auto previous = std::exchange(run_, std::move(prepared.run));
   pictured_.clear();

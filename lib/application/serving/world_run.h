@@ -1,5 +1,8 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
+#include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,6 +36,7 @@ class WorldRun final : public ServedRun {
   std::shared_ptr<const RunInfo> runInfo() const override;  ///< keeps its run alive
   void addRobots() override;
   void poll(RunControl& control) override;
+  std::unique_ptr<PreparedRun> takeRequestedRun() override;
   void requestPictures(const std::vector<std::uint8_t>& robots) override;
   void decide() override;
   void stepped(std::size_t late) override;
@@ -63,7 +67,10 @@ class WorldRun final : public ServedRun {
   class OneRun;
   class Prepared;
   std::shared_ptr<OneRun> load(WorldSource source, int number) const;
+  std::unique_ptr<Prepared> prepareFrom(const std::function<WorldSource()>& read) const;
   std::unique_ptr<ArcosServer> makeArcosServer(OneRun& run) const;
+  /// Begins to load the map that an ARCOS program has asked for.
+  void loadRequestedMap();
   void logArcosPorts() const;
   /// By robot, why clients of LiveServing cannot drive it; empty if they can.
   std::vector<std::string> whyNotDriven() const;
@@ -73,9 +80,12 @@ class WorldRun final : public ServedRun {
   WorldRunOptions options_;
   std::shared_ptr<OneRun> run_;         ///< shared with viewers
   std::unique_ptr<ArcosServer> arcos_;  ///< of the current run; null without ARCOS
-  std::unique_ptr<LiveServing> live_;   ///< null without Foxglove and ROS 2; destroyed before the run
+  std::unique_ptr<LiveServing> live_;   ///< null without Foxglove, ROS 2 and pages; destroyed before the run
   std::vector<std::uint8_t> pictured_;  ///< by robot: whether clients of the environment's server receive its pictures
   int number_ = 1;
+  /// Whether a next run is being prepared or is prepared: each opens the same outputs.
+  std::shared_ptr<std::atomic<bool>> has_next_ = std::make_shared<std::atomic<bool>>(false);
+  std::future<std::unique_ptr<PreparedRun>> of_program_;  ///< run with the map that an ARCOS program has asked for
   bool had_all_robots_ = true;
   bool is_trusted_ = true;
 };

@@ -17,7 +17,7 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 
 #include "base/angle_units.h"
-#include "hardware/neighbour_quantities.h"
+#include "hardware/numbered_quantities.h"
 #include "recording/cone_aperture.h"
 #include "viewing/foreign_cloud.h"
 #include "world/occupancy_grid.h"
@@ -72,10 +72,13 @@ std::size_t beamsIn(const CObservationRange& range) { return range.sensedData.si
 Ranges rangesOf(const CObservation2DRangeScan& scan) {
   Ranges ranges;
   const std::size_t stride = strideOf(scan);
+  const double aperture_rad = scan.rightToLeft ? scan.aperture : -scan.aperture;
   for (std::size_t i = 0; i < scan.getScanSize(); i += stride) {
     TPose3D beam = scan.sensorPose.asTPose();
-    // MRPT divides the aperture among the beams, and so gives no angle for a single beam.
-    if (scan.getScanSize() > 1) beam.yaw += scan.getScanAngle(i);
+    // As scan.getScanAngle(i), which has the precision of a float, and no angle for a single beam.
+    if (scan.getScanSize() > 1) {
+      beam.yaw += aperture_rad * (static_cast<double>(i) / static_cast<double>(scan.getScanSize() - 1) - 0.5);
+    }
     const bool observed = scan.getScanRangeValidity(i) && scan.getScanRange(i) < scan.maxRange;
     ranges.beams.push_back({beam});
     ranges.echoes.push_back(echoOf(beam, observed ? scan.getScanRange(i) : scan.maxRange));

@@ -128,6 +128,7 @@ class ForeignRecording final : public RecordedMoments {
   const RunPaths& paths() const override { return paths_; }
   const RunEvents& events() const override { return events_; }
   const std::string& readError() const override { return read_error_; }
+  bool isOfOtherProgram() const override { return true; }
   bool isDamaged() const override { return is_damaged_; }
 
   RunSnapshot at(std::size_t moment) override {

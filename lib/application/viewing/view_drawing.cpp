@@ -5,12 +5,12 @@
 
 namespace robosim {
 
-ViewDrawing::ViewDrawing(ViewSource& source, MakePanes make_panes)
-    : source_(source), make_panes_(std::move(make_panes)), world_number_(source.worldNumber()) {
-  make(AbsentRobots::refused);
+ViewDrawing::ViewDrawing(ViewSource& source, MakePanes make_panes, const ViewLayers& layers, RobotSelection only)
+    : source_(source), make_panes_(std::move(make_panes)), only_(std::move(only)), world_number_(source.worldNumber()) {
+  make(AbsentRobots::refused, layers);
 }
 
-void ViewDrawing::make(AbsentRobots absent) {
+void ViewDrawing::make(AbsentRobots absent, ViewLayers layers) {
   const LoadedWorld& world = source_.world();
   auto panes = make_panes_(world, absent);
   auto renderer = std::make_shared<std::unique_ptr<OffscreenRenderer>>();
@@ -23,7 +23,8 @@ void ViewDrawing::make(AbsentRobots absent) {
     if (!*renderer) *renderer = std::make_unique<OffscreenRenderer>(world.world, world.fleet);
     return (*renderer)->picture(camera, world_from_camera, seen, depth);
   };
-  const auto layers = panes_ ? panes_->layers() : TopViewLayers{};
+  layers.only = only_.flagsIn(world.fleet, absent == AbsentRobots::refused ? RobotSelection::Unmatched::refused
+                                                                           : RobotSelection::Unmatched::ignored);
   const auto look = panes_ ? panes_->look() : Panes::Look{};
   panes_ = std::make_unique<Panes>(world.world, world.fleet, std::move(panes), draw_3d);
   panes_->layers() = layers;
@@ -33,7 +34,7 @@ void ViewDrawing::make(AbsentRobots absent) {
 
 cv::Mat ViewDrawing::draw(Size size) {
   if (std::exchange(world_number_, source_.worldNumber()) != source_.worldNumber()) {
-    make(AbsentRobots::not_followed);
+    make(AbsentRobots::not_followed, panes_->layers());
   }
   panes_->resize(size.width_px, size.height_px);
   if (auto requested = panes_->requestedReadings(); !has_requested_ || requested != requested_) {

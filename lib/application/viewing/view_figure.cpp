@@ -11,13 +11,15 @@
 namespace robosim {
 
 void writeViewFigure(ViewSource& source, const ViewTimes& times, const std::string& file, const FigurePage& page,
-                     TopViewLayers layers) {
+                     ViewLayers layers, const RobotSelection& only) {
   AtomicFile whole(file);
   showPictureTime(source, times);
   const LoadedWorld& loaded = source.world();
   layers.paths_from_s = times.from_s.value_or(0);
+  layers.only = only.flagsIn(loaded.fleet, RobotSelection::Unmatched::refused);
   DrawnRun run = drawnRun(loaded.fleet, source.snapshot(), source.paths(), layers, &source.events());
   run.objects = source.snapshot().objects;
+  run.density = densityOf(layers, loaded.world, loaded.fleet, source.snapshot(), source.paths());
   if (source.snapshot().time_s > 0) run.title = loaded.world.name + ", " + fixed(source.snapshot().time_s, 1) + " s";
   whole.write(runFigure(requirePictureFormat(file), loaded.world, loaded.fleet, run, page));
   whole.commit();

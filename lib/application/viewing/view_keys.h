@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <string>
 
 namespace robosim {
 
@@ -8,11 +9,11 @@ inline constexpr int kControl = 2;
 
 /// A key or mouse action of the window, and its meaning.
 struct ViewKey {
-  const char* key;
-  const char* meaning;
+  std::string key;
+  std::string meaning;
 };
 
-/// All of them, for the window's help and for --help.
+/// All of them, with those of the layers (viewLayers()), for the window's help and for --help.
 std::span<const ViewKey> viewKeys();
 
 }  // namespace robosim

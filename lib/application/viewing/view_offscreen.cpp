@@ -58,7 +58,7 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   const auto start = Progress::Clock::now();
   VideoFile video(file, size.width_px, size.height_px, times.fps);
   if (const auto duration_s = source.duration()) {
-    const double end_s = computeEnd(*duration_s, times);
+    double end_s = computeEnd(*duration_s, times);
     const double speed = times.speed.value_or(1);
     // Rounding errors of times, which are as large as 10⁹ s in recordings with a wrong clock.
     const double rounding_s = 1e-9 + 4 * std::numeric_limits<double>::epsilon() * end_s;
@@ -70,6 +70,7 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
       if (interrupt.isRequested()) throwInterrupted();
       source.seek(t);
       source.advance(0);
+      end_s = computeEnd(source.duration().value_or(end_s), times);  // earlier after damage
       video.add(drawing.draw(size));
       if (progress.due()) {
         const double elapsed_s = secondsSince(start);
@@ -130,14 +131,14 @@ void showPictureTime(ViewSource& source, const ViewTimes& times) {
 }
 
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                    const std::string& file, const Panes::Look& look, const TopViewLayers& layers) {
+                    const std::string& file, const Panes::Look& look, const ViewLayers& layers,
+                    const RobotSelection& only) {
   if (isVideo(file) && source.isOver() && !source.duration()) {
     throw ConfigError("--offscreen " + file +
                       ": nothing moves in a world that does not run; ask for a .png, or record a run");
   }
-  ViewDrawing drawing(source, make_panes);
+  ViewDrawing drawing(source, make_panes, layers, only);
   drawing.panes().look() = look;
-  drawing.panes().layers() = layers;
   drawing.panes().layers().paths_from_s = times.from_s.value_or(0);
   if (isVideo(file)) {
     writeVideo(source, drawing, size, times, file);

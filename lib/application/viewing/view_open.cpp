@@ -10,33 +10,38 @@
 #include "world/world_file.h"
 
 namespace robosim {
-namespace {
 
 void refuseChanges(const std::string& source, const WorldChanges& changes, const char* what) {
   if (changes.isNone()) return;
   throw ConfigError(source + ": is " + what + "; --robot and --random-robots add to a world or a map only");
 }
 
-std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChanges& changes, std::uint64_t seed) {
+namespace {
+
+std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChanges& changes, std::uint64_t seed,
+                                     Pictures pictures, Opening opening) {
   if (isMapFile(source) || isStageFile(source)) return viewWorld(source, changes, seed);
   auto file = std::make_unique<RereadableFile>(source);
   const bool is_text = !looksLikeRawlog(file->path());
   if (is_text && !changes.isNone()) return viewWorld(source, changes, seed);
   if (is_text) return viewWorld(source, readXmlText(file->path()), seed);
   refuseChanges(source, changes, "a recording");
-  return viewRawlog(source, std::move(file));
+  return viewRawlog(source, std::move(file), pictures, opening);
 }
 
 }  // namespace
 
 std::unique_ptr<ViewSource> openView(const std::string& source,
                                      const std::function<ConnectOptions(const std::string& address)>& connect_options,
-                                     const WorldChanges& changes, std::uint64_t seed) {
+                                     const WorldChanges& changes, std::uint64_t seed, Pictures pictures,
+                                     Opening opening) {
   std::error_code ignored;  // for broken links
-  if (std::filesystem::exists(std::filesystem::symlink_status(source, ignored))) return viewFile(source, changes, seed);
+  if (std::filesystem::exists(std::filesystem::symlink_status(source, ignored)))
+    return viewFile(source, changes, seed, pictures, opening);
   const bool looks_like_file = source.find('/') != std::string::npos || source.ends_with(".xml") ||
                                source.ends_with(".rawlog") || source.ends_with(".mcap") || source.ends_with(".db3") ||
-                               isMapFile(source) || isStageFile(source);
+                               source.ends_with(".log") || source.ends_with(".clf") || isMapFile(source) ||
+                               isStageFile(source);
   if (looks_like_file)
     throw ConfigError(source + ": there is no such file; give a world, a map, a recording, or HOST:PORT" +
                       searchedText(source));

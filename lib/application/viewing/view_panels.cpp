@@ -39,10 +39,10 @@ void HelpPanel::draw(NVGcontext* context) {
   for (const auto& [key, meaning] : viewKeys()) {
     nvgFontFace(context, "sans-bold");
     nvgFillColor(context, nvgRGB(255, 214, 120));
-    nvgText(context, left + line_px, y, key, nullptr);
+    nvgText(context, left + line_px, y, key.c_str(), nullptr);
     nvgFontFace(context, "sans");
     nvgFillColor(context, nvgRGB(240, 243, 247));
-    nvgText(context, left + 7 * line_px, y, meaning, nullptr);
+    nvgText(context, left + 7 * line_px, y, meaning.c_str(), nullptr);
     y += line_px;
   }
 }

@@ -11,6 +11,7 @@
 #include "environment/environment.h"
 #include "environment/world_changes.h"
 #include "net/connect.h"
+#include "recording/recorded_step.h"
 #include "rendering/drawn_run.h"
 #include "rendering/run_paths.h"
 #include "robots/run_snapshot.h"
@@ -47,6 +48,11 @@ class ViewSource {
   virtual bool isOver() const = 0;
   /// Message for the user, or empty: why a recording ends early, that a run is over.
   virtual std::string remark() const { return ""; }
+  /// Of a recording whose rest is still being read: the time up to which it has been [s]. Until then, it is played as
+  /// far as it is known, and its duration and paths are those of this part.
+  virtual std::optional<double> readSoFar() const { return std::nullopt; }
+  /// Whether it is a recording of another program, in which sensors measure at other times than the snapshots.
+  virtual bool isOfOtherProgram() const { return false; }
   /// Whether a recording is damaged, and only its readable entries are shown.
   virtual bool isDamaged() const { return false; }
 
@@ -87,6 +93,12 @@ class ViewSource {
   virtual void requestReadings(const std::vector<std::uint8_t>&) {}
 };
 
+/// How much of a recording is read before it is shown.
+enum class Opening {
+  whole,
+  at_once,  ///< the first moment; the rest in a thread of its own
+};
+
 /// Snapshot of the latest step of an environment in this process, with all readings.
 RunSnapshot takeSnapshot(const Environment& environment);
 
@@ -98,18 +110,25 @@ std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChange
 /// The same for the text of a world file.
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text, std::uint64_t seed = 1);
 /// A recording made by RoboSim or by another program.
-/// @param name for the title
-std::unique_ptr<ViewSource> viewRawlog(const std::string& name, std::unique_ptr<RereadableFile> file);
+/// @param name for the title @param pictures of cameras in the snapshots
+/// @param opening of a recording of RoboSim; others are read in full
+std::unique_ptr<ViewSource> viewRawlog(const std::string& name, std::unique_ptr<RereadableFile> file,
+                                       Pictures pictures = Pictures::leave_out, Opening opening = Opening::whole);
 /// A served run; the environment never waits for viewers.
 std::unique_ptr<ViewSource> viewEnvironment(const ConnectOptions& connect_options);
+
+/// @param what the source is: "a recording" @throws ConfigError unless there are no changes
+void refuseChanges(const std::string& source, const WorldChanges& changes, const char* what);
 
 /// Any of these: an address (HOST:PORT), a map by its file name, or a file recognised as a world or a rawlog by its
 /// content.
 /// @param connect_options for the given address; called only for an address
 /// @param seed of the changes, and of what the world scatters
+/// @param pictures, opening of a recording
 /// @throws ConfigError when it is none of them, and for changes of anything but a world or a map.
 std::unique_ptr<ViewSource> openView(const std::string& source,
                                      const std::function<ConnectOptions(const std::string& address)>& connect_options,
-                                     const WorldChanges& changes = {}, std::uint64_t seed = 1);
+                                     const WorldChanges& changes = {}, std::uint64_t seed = 1,
+                                     Pictures pictures = Pictures::leave_out, Opening opening = Opening::whole);
 
 }  // namespace robosim

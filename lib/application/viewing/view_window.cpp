@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
@@ -31,14 +32,13 @@ constexpr int kEscape = 256, kRight = 262, kLeft = 263, kF1 = 290, kF11 = 300;
 class ViewWindow final : public nanogui::Screen {
  public:
   ViewWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-             const Panes::Look& look, const TopViewLayers& layers)
+             const Panes::Look& look, const ViewLayers& layers, const RobotSelection& only)
       : Screen(Vector2i(size.width_px, size.height_px), "RoboSim: " + printableText(source.title())),
         source_(source),
         times_(times),
         scale_(static_cast<float>(look.scale)),
-        drawing_(source, make_panes) {
+        drawing_(source, make_panes, layers, only) {
     drawing_.panes().look() = look;
-    drawing_.panes().layers() = layers;
     auto* const theme = new nanogui::Theme(nvgContext());
     theme->mStandardFontSize = static_cast<int>(16 * scale_);
     theme->mButtonFontSize = static_cast<int>(16 * scale_);
@@ -73,11 +73,16 @@ class ViewWindow final : public nanogui::Screen {
     }
     addButton("Follow", [this] { drawing_.panes().followNext(source_.snapshot()); });
     addButton("All", [this] { drawing_.panes().showAll(); });
-    addSwitch("Paths", [this]() -> bool& { return drawing_.panes().layers().paths; });
-    addSwitch("Sensors", [this]() -> bool& { return drawing_.panes().layers().sensors; });
-    addSwitch("Names", [this]() -> bool& { return drawing_.panes().layers().names; });
+    for (const ViewLayer& layer : viewLayers()) {
+      if (layer.key == 0) continue;
+      addSwitch(
+          layer.label, [this, &layer] { return drawing_.panes().layers().*layer.is_shown; },
+          [this, &layer](bool is_on) { setShown(drawing_.panes().layers(), layer, is_on); });
+    }
     if (hasCamera(source_.world().fleet)) {
-      addSwitch("Camera", [this]() -> bool& { return drawing_.panes().look().camera_inset; });
+      addSwitch(
+          "Camera", [this] { return drawing_.panes().look().camera_inset; },
+          [this](bool is_on) { drawing_.panes().look().camera_inset = is_on; });
     }
     addButton("Full screen", [this] { toggleFullScreen(); });
     addButton("?", [this] { toggleHelp(); });
@@ -100,14 +105,14 @@ class ViewWindow final : public nanogui::Screen {
     return button;
   }
   /// A button that switches a layer, which keys switch as well.
-  void addSwitch(const std::string& text, const std::function<bool&()>& layer) {
+  void addSwitch(const std::string& text, const std::function<bool()>& is_on, const std::function<void(bool)>& set) {
     auto* const button = bar_->add<nanogui::Button>(text);
     button->setFlags(nanogui::Button::ToggleButton);
-    button->setChangeCallback([this, layer](bool is_on) {
-      layer() = is_on;
+    button->setChangeCallback([this, set](bool on) {
+      set(on);
       picture_->renew();
     });
-    switches_.emplace_back(button, layer);
+    switches_.emplace_back(button, is_on);
   }
 
   /// Called before each repaint of the widgets.
@@ -167,16 +172,25 @@ class ViewWindow final : public nanogui::Screen {
     slider_->setSize(Vector2i(std::max(1, width() - 2 * gap_px), slider_px - gap_px));
   }
 
+  /// Once.
+  void printRemark() {
+    if (is_remark_printed_ || source_.remark().empty()) return;
+    logWarning("view", source_.remark());
+    is_remark_printed_ = true;
+  }
+
   void showStatus() {
     const auto duration_s = source_.duration();
     std::string text = fixed(source_.snapshot().time_s, 1) + " s";
     if (duration_s) text += " of " + fixed(*duration_s, 1) + " s";
     const double speed = source_.speed();
     if (source_.canPlay()) text += speed == 0 ? ", at full speed" : ", " + fixed(speed, speed < 1 ? 2 : 0) + " x";
-    // The remark of a recording is long, and has been printed.
+    if (const auto so_far_s = source_.readSoFar()) text += "; reading, " + fixed(*so_far_s, 0) + " s";
+    // The remark of a recording is long, and is printed.
+    if (duration_s && !source_.readSoFar()) printRemark();
     if (duration_s && !source_.remark().empty()) text += "; not whole";
     status_->setCaption(text);
-    for (auto& [button, layer] : switches_) button->setPushed(layer());
+    for (const auto& [button, is_on] : switches_) button->setPushed(is_on());
     if (pause_) pause_->setCaption(source_.isPaused() ? "Resume" : "Pause");
     for (auto* const part : playing_) part->setEnabled(source_.canPlay());
     if (slider_) slider_->setValue(static_cast<float>(source_.snapshot().time_s / std::max(1e-9, *duration_s)));
@@ -258,17 +272,8 @@ class ViewWindow final : public nanogui::Screen {
       case '0':
         drawing_.panes().showAll();
         break;
-      case 'T':
-        toggle(drawing_.panes().layers().paths);
-        break;
-      case 'V':
-        toggle(drawing_.panes().layers().sensors);
-        break;
-      case 'N':
-        toggle(drawing_.panes().layers().names);
-        break;
       case 'C':
-        toggle(drawing_.panes().look().camera_inset);
+        drawing_.panes().look().camera_inset = !drawing_.panes().look().camera_inset;
         break;
       case 'Z':
         if (!with_control) return false;
@@ -297,12 +302,21 @@ class ViewWindow final : public nanogui::Screen {
         close();
         break;
       default:
-        return false;
+        if (!toggleLayer(key)) return false;
     }
     picture_->renew();
     return true;
   }
-  static void toggle(bool& layer) { layer = !layer; }
+  /// @return whether the key is that of a layer
+  bool toggleLayer(int key) {
+    const auto layers = viewLayers();
+    const auto layer = std::find_if(layers.begin(), layers.end(),
+                                    [&](const ViewLayer& one) { return one.key != 0 && one.key == key; });
+    if (layer == layers.end()) return false;
+    ViewLayers& shown = drawing_.panes().layers();
+    setShown(shown, *layer, !(shown.*layer->is_shown));
+    return true;
+  }
 
   /// Runs a callback and stores its exception, because nanogui's loop ignores exceptions.
   template <typename Work>
@@ -334,12 +348,13 @@ class ViewWindow final : public nanogui::Screen {
   nanogui::Widget* bar_ = nullptr;
   nanogui::Button* pause_ = nullptr;
   std::vector<nanogui::Button*> playing_;  ///< enabled while the source can play
-  std::vector<std::pair<nanogui::Button*, std::function<bool&()>>> switches_;
+  std::vector<std::pair<nanogui::Button*, std::function<bool()>>> switches_;
   nanogui::Slider* slider_ = nullptr;
   nanogui::Label* status_ = nullptr;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::exception_ptr failure_;
   bool has_lost_connection_ = false;
+  bool is_remark_printed_ = false;
   bool is_full_screen_ = false;
   int windowed_[4] = {0, 0, 0, 0};  ///< position and size before full screen
 };
@@ -369,12 +384,11 @@ class Nanogui {
 }  // namespace
 
 void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                const Panes::Look& look, const TopViewLayers& layers) {
+                const Panes::Look& look, const ViewLayers& layers, const RobotSelection& only) {
   std::exception_ptr failure;
   try {
     const Nanogui nanogui;
-    nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times, look, layers));
-    if (const auto remark = source.remark(); !remark.empty()) logWarning("view", remark);
+    nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times, look, layers, only));
     window->drawAll();
     window->setVisible(true);
     constexpr int kPeriod_ms = 40;

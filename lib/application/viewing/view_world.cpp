@@ -37,7 +37,7 @@ RunSnapshot takeSnapshot(const Environment& environment) {
   RunSnapshot snapshot{state.time.step, state.time.seconds(), {}, state.objects};
   for (std::size_t i = 0; i < environment.robotCount(); ++i) {
     snapshot.robots.push_back({state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0,
-                               state.activity[i], state.readings[i]});
+                               state.activity[i], state.readings[i], state.commands[i].led_color});
   }
   return snapshot;
 }

@@ -15,5 +15,6 @@
 #include "aria/laser_device.h"
 #include "aria/pioneer_map.h"
 #include "aria/pioneer_robot.h"
+#include "aria/ptz.h"
 #include "aria/sonar_device.h"
 #include "aria/stock_actions.h"

@@ -40,6 +40,11 @@ void PioneerRobot::setRotVel(double deg_ps) {
   drive_.setTurn(deg_ps / kDegPerRad);
 }
 
+void PioneerRobot::setLatVel(double mm_ps) {
+  beginDirectMotion();
+  drive_.setLateral(mm_ps / kMmPerM);
+}
+
 void PioneerRobot::setHeading(double deg) {
   beginDirectMotion();
   drive_.turnTo(deg / kDegPerRad - aria_from_odom_.phi);
@@ -103,6 +108,7 @@ double PioneerRobot::getRotAccel() const { return turn_limits_.accel * kDegPerRa
 double PioneerRobot::getRotDecel() const { return turn_limits_.decel * kDegPerRad; }
 double PioneerRobot::getAbsoluteMaxTransVel() const { return robot_.info().limits.speed_max_mps * kMmPerM; }
 double PioneerRobot::getAbsoluteMaxRotVel() const { return robot_.info().limits.turn_max_radps * kDegPerRad; }
+double PioneerRobot::getAbsoluteMaxLatVel() const { return robot_.info().limits.lateral_max_mps * kMmPerM; }
 
 void PioneerRobot::obey(const ActionDesired& desired) {
   AxisLimits way = way_limits_, turn = turn_limits_;

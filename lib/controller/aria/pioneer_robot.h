@@ -111,6 +111,8 @@ class PioneerRobot : public PioneerSensors {
   void setVel(double mm_ps);
   void setVel2(double left_mm_ps, double right_mm_ps);
   void setRotVel(double deg_ps);
+  void setLatVel(double mm_ps);  ///< to the left; without effect unless hasLatVel()
+  bool hasLatVel() const { return robot_.info().drive.kind == DriveKind::omni; }
   void setHeading(double deg);       ///< in the frame of getPose(), by the smaller angle
   void setDeltaHeading(double deg);  ///< relative to the present heading
   void move(double mm);              ///< negative: backwards
@@ -147,6 +149,7 @@ class PioneerRobot : public PioneerSensors {
   double getRotDecel() const;
   double getAbsoluteMaxTransVel() const;  ///< of the hardware [mm/s]
   double getAbsoluteMaxRotVel() const;    ///< of the hardware [deg/s]
+  double getAbsoluteMaxLatVel() const;    ///< of the hardware [mm/s]; 0 unless hasLatVel()
   ///@}
 
   /// @name Pose and odometer

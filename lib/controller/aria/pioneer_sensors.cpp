@@ -41,6 +41,7 @@ void PioneerSensors::setPose(const PioneerPose& pose) {
 
 double PioneerSensors::getVel() const { return robot_.odometry().speed_mps * kMmPerM; }
 double PioneerSensors::getRotVel() const { return robot_.odometry().turn_radps * kDegPerRad; }
+double PioneerSensors::getLatVel() const { return robot_.odometry().lateral_mps * kMmPerM; }
 double PioneerSensors::getLeftVel() const { return getVel() - robot_.odometry().turn_radps * kHalfTrack_mm; }
 double PioneerSensors::getRightVel() const { return getVel() + robot_.odometry().turn_radps * kHalfTrack_mm; }
 double PioneerSensors::getRobotRadius() const { return robot_.info().radius_m * kMmPerM; }

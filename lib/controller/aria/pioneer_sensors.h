@@ -45,6 +45,7 @@ class PioneerSensors {
   PioneerTransform getEncoderTransform() const;  ///< from getEncoderPose()'s frame to getPose()'s
   double getVel() const;
   double getRotVel() const;
+  double getLatVel() const;
   double getLeftVel() const;
   double getRightVel() const;
   double getRobotRadius() const;  ///< [mm]

@@ -1,8 +1,14 @@
 #include "console/console.h"
 
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <variant>
 
+#include "base/atomic_file.h"
+#include "base/input_file.h"
 #include "base/log_limiter.h"
 #include "console/console_session.h"
 #include "console/page.h"
@@ -28,13 +34,32 @@ RemoteControl::Options controlOptions(const Console::Options& options, WebServer
   return control;
 }
 
+/// The results stored by an earlier console; none without a file.
+BestOfDay readResults(const std::string& name) {
+  if (name.empty()) return {};
+  checkWritable(name);
+  if (std::error_code error; !std::filesystem::exists(name, error)) return {};
+  constexpr std::size_t kMaxBytes = 1 << 20;
+  return BestOfDay::parse(readWholeFile(name, kMaxBytes, "is it a file of --results?"), name);
+}
+
+/// The local date, such as "2026-11-28".
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[16] = "";
+  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
+  return text;
+}
+
 }  // namespace
 
 /// Adapter of ConsoleSession: passes it the events of the web server with the time, and performs its actions.
 struct Console::Impl {
   Impl(const Options& the_options, const std::vector<RobotAddress>& team)
       : options(the_options),
-        session(options.access),
+        session(options.access, options.rounds, readResults(options.results)),
         server(serverOptions(options), events()),
         control(team, controlOptions(options, server)) {
     perform(update());
@@ -79,8 +104,16 @@ struct Console::Impl {
     control.switchTo(action.robot);
     return true;
   }
-  bool operator()(const RestartRun&) {
-    if (options.run) options.run->restart();
+  bool operator()(const RestartRun& action) {
+    if (options.run) options.run->restart(action.paused);
+    return false;
+  }
+  bool operator()(const ResumeRun&) {
+    if (options.run) options.run->resume();
+    return false;
+  }
+  bool operator()(const SaveResults& action) {
+    if (!options.results.empty()) save(action.text);
     return false;
   }
   bool operator()(const RecordRun& action) {
@@ -114,7 +147,20 @@ struct Console::Impl {
     if (options.map && is_map_watched) inputs.map = options.map->newest();
     if (options.run) inputs.run = options.run->newest();
     inputs.access_version = options.access.refresh();
+    inputs.today = today();
     return session.update(inputs, now());
+  }
+
+  /// The visitors play on when it fails, for example because the disk is full.
+  void save(const std::string& text) {
+    try {
+      AtomicFile file(options.results);
+      file.write(text);
+      file.finish();
+      file.commit();
+    } catch (const std::exception& error) {
+      write("results", std::string("the results of the day are not stored: ") + error.what());
+    }
   }
 
   void write(std::string_view kind, const std::string& line) {

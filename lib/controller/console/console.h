@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "console/map_view.h"
+#include "console/rounds.h"
 #include "console/run_view.h"
 #include "net/access.h"
 #include "net/tls.h"
@@ -19,17 +20,19 @@ namespace robosim {
 class Console {
  public:
   struct Options {
-    std::string listen = "127.0.0.1:8080";                                    ///< "host:port"
-    std::optional<TlsIdentity> tls;                                           ///< absent: without TLS
-    Access access;                                                            ///< rights by token
-    RemoteControl::Options control;                                           ///< all but `on_news`
-    MapSource* map = nullptr;                                                 ///< must outlive this; null for no map
-    RunSource* run = nullptr;                                                 ///< must outlive this; null if unknown
+    std::string listen = "127.0.0.1:8080";  ///< "host:port"
+    std::optional<TlsIdentity> tls;         ///< absent: without TLS
+    Access access;                          ///< rights by token
+    RemoteControl::Options control;         ///< all but `on_news`
+    MapSource* map = nullptr;               ///< must outlive this; null for no map
+    RunSource* run = nullptr;               ///< must outlive this; null if unknown
+    std::optional<Rounds::Options> rounds;  ///< of visitors; absent: none
+    std::string results;                    ///< file of the results of the day; empty: none
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
   };
 
   /// Opens the port.
-  /// @throws std::runtime_error when it is taken; ConfigError as RemoteControl does.
+  /// @throws std::runtime_error when it is taken; ConfigError as RemoteControl does, and for a damaged file of results.
   Console(const Options& options, const std::vector<RobotAddress>& team);
   ~Console();
   Console(const Console&) = delete;

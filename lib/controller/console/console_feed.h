@@ -42,6 +42,7 @@ struct ConsoleFeed {
   VersionedMessage team;
   VersionedMessage vitals;  ///< of the team's robots
   VersionedMessage run;     ///< the environment's
+  VersionedMessage game;    ///< rounds of visitors, and results of the day
   RobotNews primary;
   UpdateMessages updates;
   VersionedMessage map;                  ///< world of the map

@@ -14,6 +14,7 @@ bool isSilent(const auto& page) { return !page.is_admitted && !page.is_leaving; 
 }  // namespace
 
 ConsoleActions ConsoleSession::pageOpened(PageId id, const std::string& peer, Time now) {
+  now_ = now;
   disconnectOldestSilent();
   Page& page = pages_[id];
   page.id = id;
@@ -25,6 +26,7 @@ ConsoleActions ConsoleSession::pageOpened(PageId id, const std::string& peer, Ti
 ConsoleActions ConsoleSession::pageClosed(PageId id) {
   if (Page* page = find(id)) {
     if (!page->name.empty()) audit(*page, "leave");
+    if (rounds_) rounds_->leave(id, now_);
     release(*page, page->name + "'s page has disconnected");
     pages_.erase(id);
     publishTeam();
@@ -34,6 +36,7 @@ ConsoleActions ConsoleSession::pageClosed(PageId id) {
 }
 
 ConsoleActions ConsoleSession::pageMessage(PageId id, std::string_view text, Time now) {
+  now_ = now;
   Page* page = find(id);
   if (!page || page->is_leaving) return {};
   try {
@@ -65,6 +68,7 @@ ConsoleActions ConsoleSession::pageInvalid(PageId id, const std::string& why) {
 }
 
 ConsoleActions ConsoleSession::update(const Inputs& inputs, Time now) {
+  now_ = now;
   bool is_news = takeRobots(inputs.robots);
   checkAccess(inputs.access_version);
   if (auto order = orders_.due(now)) act(SendOrder{*std::move(order)});
@@ -73,6 +77,10 @@ ConsoleActions ConsoleSession::update(const Inputs& inputs, Time now) {
   publishTeam();
   publishVitals(now);
   takeRun(inputs.run);
+  best_.setDay(today_ = inputs.today);
+  takeWin();
+  updateRounds(now);
+  publishGame(now);
   is_news |= takeMap(inputs.map);
   checkDeadlines(now);
   wakePages(is_news, now);
@@ -118,6 +126,7 @@ void ConsoleSession::reject(Page& page, const std::string& why) {
 void ConsoleSession::disconnect(Page& page, const std::string& why) {
   if (std::exchange(page.is_leaving, true)) return;
   act(DisconnectPage{page.id, why});
+  if (rounds_) rounds_->leave(page.id, now_);
   release(page, page.name + "'s page was disconnected");
   publishTeam();
   watchMap();
@@ -140,8 +149,18 @@ void ConsoleSession::release(Page& page, const std::string& why) {
   if (lock_.holder != page.id) return;
   audit(page, "release " + primary() + ": " + why);
   lock_ = {};
+  if (rounds_) rounds_->leave(page.id, now_);
   orders_.clear();
   act(SendOrder{stopOrder(why)});
+  publishTeam();
+}
+
+void ConsoleSession::giveControl(Page& page) {
+  if (lock_.holder != page.id) audit(page, "take " + primary());
+  lock_.holder = page.id;
+  lock_.name = page.name;
+  orders_.clear();
+  act(SetDriver{page.name});
   publishTeam();
 }
 

@@ -11,12 +11,15 @@
 #include <variant>
 #include <vector>
 
+#include "console/best_of_day.h"
 #include "console/console_feed.h"
+#include "console/game_json.h"
 #include "console/map_view.h"
 #include "console/order_limiter.h"
 #include "console/page_authorization.h"
 #include "console/page_json.h"
 #include "console/page_outbox.h"
+#include "console/rounds.h"
 #include "console/run_view.h"
 #include "console/team_events.h"
 #include "net/access.h"
@@ -50,8 +53,15 @@ struct SwitchPrimary {
   std::string robot;
 };
 
-/// Starts the environment's world again, after its run has ended.
-struct RestartRun {};
+/// Loads the environment's world again, after its run has ended; for rounds of visitors also before.
+struct RestartRun {
+  bool paused = false;  ///< until ResumeRun
+};
+struct ResumeRun {};
+/// Stores the results of the day, as BestOfDay::text().
+struct SaveResults {
+  std::string text;
+};
 /// Starts or stops the recording of the environment's run.
 struct RecordRun {
   bool on;
@@ -73,8 +83,8 @@ struct WriteAudit {
   std::string peer, action;
 };
 
-using ConsoleAction = std::variant<WakePage, DisconnectPage, SendOrder, SetDriver, SwitchPrimary, RestartRun, RecordRun,
-                                   WatchMap, WriteLog, WriteAudit>;
+using ConsoleAction = std::variant<WakePage, DisconnectPage, SendOrder, SetDriver, SwitchPrimary, RestartRun, ResumeRun,
+                                   SaveResults, RecordRun, WatchMap, WriteLog, WriteAudit>;
 using ConsoleActions = std::vector<ConsoleAction>;
 ///@}
 
@@ -103,10 +113,16 @@ class ConsoleSession {
     std::shared_ptr<const MapView> map;  ///< the newest; null without a map, or while it is not watched
     std::uint64_t access_version = 0;    ///< of Access::refresh()
     RunView run{};
+    std::string today{};  ///< for results of the day, such as "2026-11-28"
   };
 
   /// @param access rights by token
-  explicit ConsoleSession(Access access) : access_(std::move(access)) {}
+  /// @param rounds of visitors, who then receive the control lock in turn (Rounds); nullopt: pages take it
+  /// @param best results of the day so far
+  explicit ConsoleSession(Access access, std::optional<Rounds::Options> rounds = std::nullopt, BestOfDay best = {})
+      : access_(std::move(access)), best_(std::move(best)) {
+    if (rounds) rounds_.emplace(*std::move(rounds));
+  }
 
   /// @param id greater than all previous ones
   /// @param peer address
@@ -155,6 +171,7 @@ class ConsoleSession {
   void switchPrimary(Page& page, const std::string& robot);
   void playAgain(Page& page);
   void record(Page& page, bool on);
+  void join(Page& page, const PageMessage& message, Time now);
   void deny(Page& page, const PageMessage& message, const std::string& why);
   ///@}
 
@@ -169,6 +186,23 @@ class ConsoleSession {
   void release(Page& page, const std::string& why);
   void reply(Page& page, const std::string& json);
   void noteToAll(const std::string& json);
+  /// Gives the control lock to a page. The robot stands for the new driver, even if the driver is the same.
+  void giveControl(Page& page);
+  ///@}
+
+  /// @name Rounds of visitors, and results (console_session_rounds.cpp)
+  ///@{
+  void leaveRounds(Page& page);
+  void skipRound(Page& page);
+  void revokeEndedRound();
+  void updateRounds(Time now);
+  Rounds::Inputs roundInputs() const;
+  void explore(Time now);
+  void takeWin();
+  /// Name of a page without one.
+  static std::string pageName(PageId page) { return "Page " + std::to_string(page); }
+  void addResult(const RoundResult& result);
+  void publishGame(Time now);
   ///@}
 
   /// @name Steps of update()
@@ -208,8 +242,24 @@ class ConsoleSession {
   bool is_map_watched_ = false;
   RunView run_;
   bool was_over_ = false;  ///< the run, at the last update()
+  std::optional<Rounds> rounds_;
+  BestOfDay best_;
+  std::string today_;
+  std::optional<GameResult> game_result_;
+  std::string winner_;          ///< of the run, at the last update()
+  bool is_win_listed_ = false;  ///< takeWin() has added it
+  bool may_explore_ = true;     ///< since a page has stopped the robot, a visitor has joined or driven
+  Time explored_{};             ///< of the last attempt to let the robot explore
+  struct GameVersion {
+    std::uint64_t rounds = 0, result = 0;
+    int left_s = 0;
+    std::string day;
+    bool operator==(const GameVersion&) const = default;
+  };
+  std::optional<GameVersion> game_version_;  ///< published
   ConsoleFeed feed_;
   Time vitals_published_{};
+  Time now_{};              ///< of the newest event
   ConsoleActions actions_;  ///< of the current event
 };
 

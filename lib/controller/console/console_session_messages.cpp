@@ -30,11 +30,24 @@ void ConsoleSession::handle(Page& page, const PageMessage& message, Time now) {
       return playAgain(page);
     case ConsoleRequest::record:
       return record(page, message.on);
+    case ConsoleRequest::join:
+      return join(page, message, now);
+    case ConsoleRequest::leave:
+      if (rounds_) leaveRounds(page);
+      return;
+    case ConsoleRequest::start:
+      if (rounds_) rounds_->start(page.id, now);
+      return;
+    case ConsoleRequest::skip:
+      return skipRound(page);
   }
 }
 
 /// An order to the primary robot. The answer to a request of a reading is sent to every page.
 void ConsoleSession::giveOrder(Page& page, const PageMessage& message, OrderType type, Time now) {
+  if (rounds_ && type == OrderType::set_mode && message.on) return;  // the visitor drives, not the robot's controller
+  if (type == OrderType::stop && message.why.empty()) may_explore_ = false;  // the button of the page
+  if (type == OrderType::drive) may_explore_ = true;
   if (type == OrderType::check_win) audit(page, "check_win " + primary());
   if (type == OrderType::set_mode) audit(page, (message.on ? "autonomous on " : "autonomous off ") + primary());
   for (auto& order : orders_.add(orderOf(page, message, type), now)) act(SendOrder{std::move(order)});
@@ -70,9 +83,9 @@ void ConsoleSession::handleHello(Page& page, const PageMessage& message) {
                                          : "The token permits neither driving nor watching.");
     }
   }
-  page.name = message.name.empty() ? "Page " + std::to_string(page.id) : message.name;
+  page.name = message.name.empty() ? pageName(page.id) : message.name;
   if (!std::exchange(page.is_admitted, true)) audit(page, "join");
-  reply(page, welcomeJson(page.id, mayOperate(access_, page.client)));
+  reply(page, welcomeJson(page.id, mayOperate(access_, page.client), rounds_.has_value()));
   publishTeam();
 }
 
@@ -87,20 +100,20 @@ void ConsoleSession::subscribeMap(Page& page, bool on) {
 }
 
 void ConsoleSession::take(Page& page) {
+  if (rounds_) {
+    reply(page, noteJson("Visitors drive in turn: press Start to get a place.", false));
+    return;
+  }
   if (lock_.holder != 0 && lock_.holder != page.id) {
     reply(page, noteJson(lock_.name + " drives; you may watch.", false));
     return;
   }
-  if (lock_.holder != page.id) audit(page, "take " + primary());
-  lock_.holder = page.id;
-  lock_.name = page.name;
-  orders_.clear();  // the robot stands for the new driver, even if the driver is the same
-  act(SetDriver{page.name});
-  publishTeam();
+  giveControl(page);
 }
 
 /// @param robot empty for the next robot of the queue that is fit and that the page's token permits
 void ConsoleSession::switchPrimary(Page& page, const std::string& robot) {
+  if (rounds_) return;  // the round is for this robot
   if (robots_.empty() || robot == primary()) return;
   const auto is_target = [&](const TeamRobot& other) {
     return other.isFit() && (robot.empty() ? mayDrive(access_, page.client, other.name) : other.name == robot);
@@ -116,7 +129,7 @@ void ConsoleSession::switchPrimary(Page& page, const std::string& robot) {
 }
 
 void ConsoleSession::playAgain(Page& page) {
-  if (!run_.may_restart || run_.is_restarting) return;
+  if (rounds_ || !run_.may_restart || run_.is_restarting) return;
   audit(page, "play again");
   act(RestartRun{});
 }

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 TEST_F(ConsoleSessionTest, WelcomesAPageAndSendsTheTeam) {
   const PageId page = console.join("", "Ada");
-  EXPECT_TRUE(received(page, R"({"type":"welcome","you":1,"may_operate":true})"));
+  EXPECT_TRUE(received(page, R"({"type":"welcome","you":1,"may_operate":true,"has_rounds":false})"));
   EXPECT_TRUE(received(page, R"("control_lock":{"holder":0,"name":""},"pages":1)"));
   EXPECT_TRUE(received(page, R"({"type":"robot","name":"Ann")"));
 }
@@ -148,7 +148,8 @@ TEST(ConsoleSessionBeforeUpdate, SendsNoTeam) {
   const ConsoleSession::Time now{1h};
   session.pageOpened(1, "peer", now);
   session.pageMessage(1, R"({"type":"hello","protocol":1})", now);
-  EXPECT_EQ(session.nextMessage(1, now)->bytes(), R"({"type":"welcome","you":1,"may_operate":true})");
+  EXPECT_EQ(session.nextMessage(1, now)->bytes(),
+            R"({"type":"welcome","you":1,"may_operate":true,"has_rounds":false})");
   EXPECT_EQ(session.nextMessage(1, now), nullptr);
 }
 

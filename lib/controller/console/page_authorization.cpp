@@ -18,6 +18,7 @@ std::string denial(const Access& access, const Identity& client, const PageState
   }
   if (right == Needs::operate) {
     if (mayOperate(access, client)) return "";
+    if (message.type == PageMessage::Type(ConsoleRequest::skip)) return "Your token does not permit ending a round.";
     return message.type == PageMessage::Type(ConsoleRequest::record) ? "Your token does not permit recording the run."
                                                                      : "Your token does not permit starting a run.";
   }

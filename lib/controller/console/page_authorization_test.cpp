@@ -52,6 +52,8 @@ TEST_F(PageAuthorizationTest, PermitsEachMessageToTheRolesOfTheTable) {
       {OrderType::alive, "no yes no yes yes no"},         {OrderType::check_win, "no yes no yes yes no"},
       {OrderType::set_mode, "no yes no yes yes no"},      {ConsoleRequest::switch_primary, "no yes no yes yes no"},
       {ConsoleRequest::play_again, "no no no no yes no"}, {ConsoleRequest::record, "no no no no yes no"},
+      {ConsoleRequest::join, "no yes no yes yes no"},     {ConsoleRequest::leave, "yes yes yes yes yes yes"},
+      {ConsoleRequest::start, "no yes no yes yes no"},    {ConsoleRequest::skip, "no no no no yes no"},
   };
   for (const auto& row : pageMessageRows()) {
     ASSERT_TRUE(table.contains(row.type)) << "add a row for " << row.name;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "console/team_events.h"
 #include "hardware/measurement_fields.h"
 #include "net/robot_wire.h"
 
@@ -192,8 +193,8 @@ Json movedObjects(const MapView& map, const MapView* sent) {
 
 }  // namespace
 
-std::string welcomeJson(std::uint64_t page, bool may_operate) {
-  return textOf({{"type", "welcome"}, {"you", page}, {"may_operate", may_operate}});
+std::string welcomeJson(std::uint64_t page, bool may_operate, bool has_rounds) {
+  return textOf({{"type", "welcome"}, {"you", page}, {"may_operate", may_operate}, {"has_rounds", has_rounds}});
 }
 
 std::string pongJson(std::uint64_t number) { return textOf({{"type", "pong"}, {"number", number}}); }
@@ -215,10 +216,9 @@ std::string robotJson(const RobotInfo& robot, double period_s) {
 
 std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lock) {
   Json team = Json::array();
-  std::string winner, world;
+  std::string world;
+  const std::string winner = winnerOf(robots);
   std::optional<double> winner_driven_m;
-  const bool is_any_up =
-      std::any_of(robots.begin(), robots.end(), [](const TeamRobot& robot) { return robot.news.is_up; });
   for (const auto& robot : robots) {
     const RobotNews& news = robot.news;
     team.push_back({{"name", robot.name},
@@ -235,8 +235,6 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"is_stopping", news.state.is_stopping()},
                     {"why_stopped", news.state.why_stopped()},
                     {"color", news.info && news.info->color_rgb ? toHex(*news.info->color_rgb) : ""}});
-    // Robots that have left keep the winner of their run, and those of the next run have none.
-    if (news.is_up == is_any_up && !news.state.winner().empty()) winner = news.state.winner();
     if (news.state.winner() == robot.name) winner_driven_m = readDriven(news.state);
     if (!news.world.empty()) world = news.world;
   }

@@ -14,8 +14,10 @@ namespace robosim {
 /// Messages of the console to a page, as JSON (protocol: doc/remote_control.md). Lengths are in metres and angles in
 /// radians; ranges are in whole millimetres, to keep the messages short.
 
-/// The page's hello was accepted; the page's id. @param may_operate whether its token permits to control the run
-std::string welcomeJson(std::uint64_t page, bool may_operate);
+/// The page's hello was accepted; the page's id.
+/// @param may_operate whether its token permits to control the run
+/// @param has_rounds whether visitors drive in turn
+std::string welcomeJson(std::uint64_t page, bool may_operate, bool has_rounds);
 /// Reply to a page's ping of that number.
 std::string pongJson(std::uint64_t number);
 /// The page's token is not valid. @param text for the user

@@ -19,13 +19,13 @@ TEST(PageJson, HasTheNumbersOfEachKindOfMeasurement) {
   update.readings.measurements = {Echoes{{1.2344f, {1, 2, 3}}, {2, {}}},
                                   Scalar{-0.5},
                                   Contacts{{0, 1}},
-                                  Odometry{{1, 2, 0.5}, 0.25, -1},
+                                  Odometry{{1, 2, 0.5}, 0.25, -1, 0.5},
                                   BeaconRanges{{2.5f, 50}},
                                   Values{{412.5}},
                                   Image{"a file"}};
   const Json measurements = Json::parse(updateJson(robot, update, nullptr, true))["measurements"];
   EXPECT_EQ(measurements, Json::parse(R"([[1234, 2000], -0.5, [0, 1],
-      {"x_m": 1.0, "y_m": 2.0, "heading_rad": 0.5, "speed_mps": 0.25, "turn_radps": -1.0},
+      {"x_m": 1.0, "y_m": 2.0, "heading_rad": 0.5, "speed_mps": 0.25, "turn_radps": -1.0, "lateral_mps": 0.5},
       [2.5, 50.0], [412.5], null])"));
 }
 

@@ -30,6 +30,10 @@ constexpr auto kConsoleRows = std::to_array<PageMessageRow>({
      PrimaryState::settled},
     {ConsoleRequest::play_again, "play_again", {}, Needs::operate, Page::holds_lock, PrimaryState::any},
     {ConsoleRequest::record, "record", {"on"}, Needs::operate, Page::holds_lock, PrimaryState::any},
+    {ConsoleRequest::join, "join", {"name", "team"}, Needs::drive_primary, Page::admitted, PrimaryState::any},
+    {ConsoleRequest::leave, "leave", {}, Needs::none, Page::admitted, PrimaryState::any},
+    {ConsoleRequest::start, "start", {}, Needs::drive_primary, Page::admitted, PrimaryState::any},
+    {ConsoleRequest::skip, "skip", {}, Needs::operate, Page::admitted, PrimaryState::any},
 });
 static_assert(kConsoleRows.size() == kConsoleRequests);
 
@@ -97,6 +101,7 @@ void read(const std::string& member, const json& value, PageMessage& message) {
   if (member == "number") message.number = count(value, member);
   if (member == "name") message.name = textOf(value, member, kMaxDriverBytes);
   if (member == "token") message.token = textOf(value, member, max_token_bytes);
+  if (member == "team") message.team = textOf(value, member, kMaxDriverBytes);
   if (member == "robot") message.robot = textOf(value, member, max_robot_bytes);
   if (member == "why") message.why = textOf(value, member, kMaxWhyBytes, Excess::truncate);
   if (member == "speed") message.speed = fraction(value, member);

@@ -23,8 +23,12 @@ enum class ConsoleRequest : std::uint8_t {
   switch_primary,  ///< "switch": to `robot`, or to the next
   play_again,      ///< loads and starts the world again after the end of the run
   record,          ///< on: starts or stops the recording of the run
+  join,            ///< name, team: a visitor waits for a round
+  leave,           ///< the visitor no longer does, or ends the round
+  start,           ///< the visitor who was called begins the round
+  skip,            ///< ends the round, or calls the next visitor
 };
-constexpr std::size_t kConsoleRequests = static_cast<std::size_t>(ConsoleRequest::record) + 1;
+constexpr std::size_t kConsoleRequests = static_cast<std::size_t>(ConsoleRequest::skip) + 1;
 
 /// Message of a page to the console: a JSON object, {"type": "drive", "speed": 0.5, "turn": -0.2}. Unknown members are
 /// an error.
@@ -34,7 +38,7 @@ struct PageMessage {
 
   Type type = ConsoleRequest::hello;
   std::uint32_t protocol = 0;
-  std::string name, token, robot, why;
+  std::string name, token, robot, why, team;
   std::uint64_t number = 0;
   std::optional<double> speed;    ///< fraction of the robot's maximum, [-1, 1]
   std::optional<double> turn;     ///< the same, counter-clockwise

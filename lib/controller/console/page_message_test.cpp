@@ -46,8 +46,9 @@ TEST(PageMessage, ReadsEveryTypeByItsName) {
 
 /// The members that each type may have, as JSON.
 const std::map<std::string, std::string> kMembers{
-    {"protocol", "1"},     {"name", R"("Ada")"},      {"token", R"("secret")"}, {"number", "1"}, {"on", "true"},
-    {"robot", R"("Ann")"}, {"why", R"("is hidden")"}, {"speed", "0.5"},         {"turn", "0.5"}, {"pan", "0.5"}};
+    {"protocol", "1"}, {"name", R"("Ada")"},  {"token", R"("secret")"},  {"number", "1"},
+    {"on", "true"},    {"robot", R"("Ann")"}, {"why", R"("is hidden")"}, {"speed", "0.5"},
+    {"turn", "0.5"},   {"pan", "0.5"},        {"team", R"("Red")"}};
 
 TEST(PageMessage, HasTheMembersOfItsRowAndNoOthers) {
   for (const auto& row : pageMessageRows()) {

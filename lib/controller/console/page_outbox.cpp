@@ -63,6 +63,7 @@ WebMessagePtr PageOutbox::nextNews(ConsoleFeed& feed, bool is_admitted, Time now
   if (std::exchange(team_, feed.team.version) != feed.team.version) return feed.team.message;
   if (std::exchange(vitals_, feed.vitals.version) != feed.vitals.version) return feed.vitals.message;
   if (std::exchange(run_, feed.run.version) != feed.run.version) return feed.run.message;
+  if (std::exchange(game_, feed.game.version) != feed.game.version) return feed.game.message;
   if (isUpdateDue(feed, now)) return nextUpdate(feed, now);
   return subscription_.map && feed.poses ? nextOfMap(feed, now) : nullptr;
 }

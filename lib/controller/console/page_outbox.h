@@ -79,7 +79,7 @@ class PageOutbox {
   Subscription subscription_;
   /// @name State already sent
   ///@{
-  std::uint64_t robot_ = 0, team_ = 0, vitals_ = 0, run_ = 0, map_ = 0;  ///< versions
+  std::uint64_t robot_ = 0, team_ = 0, vitals_ = 0, run_ = 0, game_ = 0, map_ = 0;  ///< versions
   std::shared_ptr<const RobotUpdate> update_;
   std::shared_ptr<const RobotPicture> picture_;
   std::shared_ptr<const MapView> poses_;

@@ -37,6 +37,8 @@ struct RunView {
   /// Whether restart() can start the next run: this one is over, the environment still serves, and the console's own
   /// token is an operator's.
   bool may_restart = false;
+  /// Whether restart() can replace the run that is not over, which only rounds of visitors do.
+  bool may_replace = false;
   bool is_restarting = false;
   std::string restart_problem{};  ///< why the last restart has failed; empty when it has not
   RecordingView recording{};
@@ -48,8 +50,11 @@ class RunSource {
  public:
   virtual ~RunSource() = default;
   virtual RunView newest() = 0;
-  /// Loads the run's world again, and starts it. Does not block: newest() contains the result.
-  virtual void restart() = 0;
+  /// Ends the run if it is not over, and loads its world again. Does not block: newest() contains the result.
+  /// @param paused whether the new run waits for resume(); otherwise it is started
+  virtual void restart(bool paused) = 0;
+  /// Starts the new run. Does not block.
+  virtual void resume() = 0;
   /// Starts or stops the recording. Does not block: newest() contains the result.
   virtual void setRecording(bool on) = 0;
 };

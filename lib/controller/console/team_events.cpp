@@ -1,6 +1,18 @@
 #include "console/team_events.h"
 
+#include <algorithm>
+
 namespace robosim {
+
+std::string winnerOf(const std::vector<TeamRobot>& robots) {
+  const bool is_any_up =
+      std::any_of(robots.begin(), robots.end(), [](const TeamRobot& robot) { return robot.news.is_up; });
+  std::string winner;
+  for (const auto& robot : robots) {
+    if (robot.news.is_up == is_any_up && !robot.news.state.winner().empty()) winner = robot.news.state.winner();
+  }
+  return winner;
+}
 
 std::vector<TeamEvents::Note> TeamEvents::news(const std::vector<TeamRobot>& robots) {
   std::vector<Note> notes;

@@ -7,6 +7,10 @@
 
 namespace robosim {
 
+/// The robot that has won the run; empty for none. Robots that have left keep the winner of their run, and those of the
+/// next run have none.
+std::string winnerOf(const std::vector<TeamRobot>& robots);
+
 /// Generates messages for the driver from changes in the team's state.
 class TeamEvents {
  public:

@@ -85,6 +85,11 @@ void ProfiledDrive::setTurn(double turn_radps) {
   command();
 }
 
+void ProfiledDrive::setLateral(double lateral_mps) {
+  if (robot_.info().drive.kind == DriveKind::omni) lateral_mps_ = lateral_mps;
+  command();
+}
+
 void ProfiledDrive::turnBy(double angle_rad) {
   turn_.go(angle_rad);
   command();
@@ -95,6 +100,7 @@ void ProfiledDrive::turnTo(double odom_rad) { turnBy(mrpt::math::wrapToPi(odom_r
 void ProfiledDrive::stop() {
   way_.keep(0);
   turn_.keep(0);
+  lateral_mps_ = 0;
   command();
 }
 
@@ -125,7 +131,7 @@ void ProfiledDrive::command() {
   }
   const Odometry& odometry = robot_.odometry();
   const double period_s = robot_.readings().time.period_s;
-  robot_.drive(way_.next(odometry.speed_mps, period_s), turn_.next(odometry.turn_radps, period_s));
+  robot_.drive(way_.next(odometry.speed_mps, period_s), turn_.next(odometry.turn_radps, period_s), lateral_mps_);
 }
 
 }  // namespace robosim

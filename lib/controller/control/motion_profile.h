@@ -30,6 +30,8 @@ class ProfiledDrive {
   void setSpeed(double speed_mps);
   void moveBy(double way_m);  ///< negative: backwards
   void setTurn(double turn_radps);
+  /// Without a profile; without effect on a robot whose drive is not omnidirectional.
+  void setLateral(double lateral_mps);
   void turnBy(double angle_rad);  ///< counter-clockwise; may be more than a full turn
   void turnTo(double odom_rad);   ///< by the smaller angle to a heading in the odometry frame
   void stop();                    ///< decelerates to rest
@@ -70,6 +72,7 @@ class ProfiledDrive {
 
   Robot& robot_;
   Axis way_, turn_;
+  double lateral_mps_ = 0;
   mrpt::math::TPose2D last_odom_from_robot_;
   bool enabled_ = true;
 };

@@ -1,5 +1,7 @@
 #include "control/robot.h"
 
+#include <stdexcept>
+
 namespace robosim {
 namespace {
 
@@ -13,23 +15,13 @@ const Blobs kNoBlobs;
 
 Robot::Robot(Hardware& hardware) : hardware_(hardware) {
   const auto& sensors = *hardware.info().sensors;
+  slot_of_kind_.fill(-1);
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     const auto kind = static_cast<std::size_t>(sensors[i].kind);
-    if (slot_of_kind_.size() <= kind) slot_of_kind_.resize(kind + 1, -1);
     if (slot_of_kind_[kind] < 0) slot_of_kind_[kind] = static_cast<int>(i);
     if (GripperState::isOf(sensors[i])) gripper_slot_ = i;
   }
-}
-
-std::optional<std::size_t> Robot::slot(SensorKind kind) const {
-  const auto index = static_cast<std::size_t>(kind);
-  if (index >= slot_of_kind_.size() || slot_of_kind_[index] < 0) return std::nullopt;
-  return static_cast<std::size_t>(slot_of_kind_[index]);
-}
-
-const SensorInfo* Robot::sensor(SensorKind kind) const {
-  const auto found = slot(kind);
-  return found ? &(*info().sensors)[*found] : nullptr;
+  head_slot_ = cameraHeadIn(sensors);
 }
 
 const Measurement* Robot::measurement(SensorKind kind) const {
@@ -81,36 +73,75 @@ GripperState Robot::gripper() const {
   return GripperState::from(std::get<Values>(readings().measurements[*gripper_slot_]));
 }
 
-void Robot::drive(double speed_mps, double turn_radps) {
+CameraAim Robot::cameraAim() const {
+  if (!head_slot_) return {};
+  return CameraAim::from(std::get<Values>(readings().measurements[*head_slot_]));
+}
+
+void Robot::drive(double speed_mps, double turn_radps, double lateral_mps) {
+  if (lateral_mps != 0 && info().drive.kind != DriveKind::omni) {
+    throw std::invalid_argument("robot '" + info().name + "' has a drive of the type " + nameOf(info().drive.kind) +
+                                ", which has no lateral speed; use 0, or a robot with <drive type=\"omni\"/>");
+  }
   const Command& last = command();
   if (last.activity != Activity::active) return;
-  hardware_.command(
-      {.speed_mps = speed_mps, .turn_radps = turn_radps, .laser_pan_rad = last.laser_pan_rad, .grip = last.grip});
+  Command driven = last.keepingDevices();
+  driven.speed_mps = speed_mps;
+  driven.turn_radps = turn_radps;
+  driven.lateral_mps = lateral_mps;
+  hardware_.command(driven);
 }
 
 void Robot::stopInEmergency() {
   if (activity() != Activity::active) return;
-  hardware_.command({.laser_pan_rad = command().laser_pan_rad, .emergency_stop = true, .grip = command().grip});
+  Command stopped = command().keepingDevices();
+  stopped.emergency_stop = true;
+  hardware_.command(stopped);
 }
 
 void Robot::panLaser(double pan_rad) {
-  Command panned = command();
-  panned.laser_pan_rad = static_cast<float>(pan_rad);
-  panned.by_driver = false;
-  hardware_.command(panned);
+  changeCommand([&](Command& changed) { changed.laser_pan_rad = static_cast<float>(pan_rad); });
+}
+void Robot::grip() {
+  changeCommand([](Command& changed) { changed.grip = true; });
+}
+void Robot::release() {
+  changeCommand([](Command& changed) { changed.grip = false; });
+}
+void Robot::setLeds(const std::array<float, 3>& rgb) {
+  changeCommand([&](Command& changed) { changed.led_color = ledColor(rgb); });
 }
 
-void Robot::grip() { setGrip(true); }
-void Robot::release() { setGrip(false); }
-void Robot::setGrip(bool is_closed) {
+void Robot::aimCamera(double pan_rad, double tilt_rad) {
+  changeHead([&](CameraHeadCommand& head) { head.aim = {pan_rad, tilt_rad, head.aim.zoom}; });
+}
+void Robot::zoomCamera(double zoom) {
+  changeHead([&](CameraHeadCommand& head) { head.aim.zoom = zoom; });
+}
+void Robot::limitCameraSpeed(double pan_radps, double tilt_radps) {
+  changeHead([&](CameraHeadCommand& head) { head = {head.aim, pan_radps, tilt_radps}; });
+}
+void Robot::stopCamera() {
+  changeHead([&](CameraHeadCommand& head) { head.aim = cameraAim(); });
+}
+
+template <typename Change>
+void Robot::changeHead(const Change& change) {
+  if (head_slot_) changeCommand([&](Command& changed) { change(changed.camera_head); });
+}
+
+template <typename Change>
+void Robot::changeCommand(const Change& change) {
   Command changed = command();
-  changed.grip = is_closed;
+  change(changed);
   changed.by_driver = false;
   hardware_.command(changed);
 }
 
 void Robot::halt(Activity why) {
-  hardware_.command({.laser_pan_rad = command().laser_pan_rad, .activity = why, .grip = command().grip});
+  Command halted = command().keepingDevices();
+  halted.activity = why;
+  hardware_.command(halted);
 }
 
 }  // namespace robosim

@@ -1,12 +1,15 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hardware/camera_head.h"
 #include "hardware/gripper_state.h"
 #include "hardware/hardware.h"
+#include "hardware/led_color.h"
 
 namespace robosim {
 
@@ -48,7 +51,10 @@ class Robot {
   /// Measurement of the sensor with a label; null for a robot without it. Takes time in proportion to the sensors.
   const Measurement* measurement(const std::string& label) const;
   /// Description of the first sensor of a kind; null for a robot without it.
-  const SensorInfo* sensor(SensorKind kind) const;
+  const SensorInfo* sensor(SensorKind kind) const {
+    const auto found = slot(kind);
+    return found ? &(*info().sensors)[*found] : nullptr;
+  }
   bool stalled() const { return readings().stalled; }
   /// State of the base beyond its sensors; all absent for a robot that is simulated.
   BaseState baseState() const {
@@ -63,7 +69,10 @@ class Robot {
     if (BaseLink* base = hardware_.base()) base->enableSonar(on);
   }
 
-  void drive(double speed_mps, double turn_radps);
+  void drive(double speed_mps, double turn_radps) { drive(speed_mps, turn_radps, 0); }
+  /// @param lateral_mps to the left
+  /// @throws std::invalid_argument for a lateral speed other than 0 of a robot whose drive is not omnidirectional
+  void drive(double speed_mps, double turn_radps, double lateral_mps);
   void panLaser(double pan_rad);  ///< [-π/2, π/2]
   /// @name Gripper
   /// Without effect on a robot that has none.
@@ -74,6 +83,26 @@ class Robot {
   /// Of this step; of a robot without a gripper, that of an open one with nothing between its paddles.
   GripperState gripper() const;
   bool hasGripper() const { return gripper_slot_.has_value(); }
+  ///@}
+  /// Sets the colour of the robot's LEDs from the next step on, which omnidirectional cameras of other robots see.
+  /// Black, {0, 0, 0}, is off, as at the start. Without effect on real robots.
+  /// @param rgb red, green and blue, each in [0, 1]
+  void setLeds(const std::array<float, 3>& rgb);
+  /// Colour as commanded last.
+  std::array<float, 3> leds() const { return rgbOf(command().led_color); }
+  /// @name Camera that pans, tilts and zooms (<ptz> of a camera)
+  /// Commands are kept until the next one of their kind, and are without effect on a robot that has none. The camera
+  /// moves with limited speed to the nearest aim within its limits, and its pictures and blobs follow.
+  ///@{
+  /// Turns it, relative to its mount. @param pan_rad to the left @param tilt_rad up
+  void aimCamera(double pan_rad, double tilt_rad);
+  void zoomCamera(double zoom);  ///< at least 1: by which its field of view is divided
+  /// Limits the speeds of aimCamera(); 0 or less: as fast as the camera can, as at the start.
+  void limitCameraSpeed(double pan_radps, double tilt_radps);
+  void stopCamera();            ///< aims it where it is now
+  CameraAim cameraAim() const;  ///< in this step; straight ahead without zoom for a robot that has none
+  /// Limits of the camera's head; null for a robot that has none.
+  const CameraHeadLimits* cameraHead() const { return head_slot_ ? &(*info().sensors)[*head_slot_].head : nullptr; }
   ///@}
   void stop() { drive(0, 0); }
   /// Stops as hard as the robot can (MotionLimits::emergency_decel_mps2), until the next drive().
@@ -102,13 +131,22 @@ class Robot {
   const std::vector<RobotMessage>& inbox() const { return readings().inbox; }
 
  private:
-  std::optional<std::size_t> slot(SensorKind kind) const;
+  /// Of the first sensor of a kind. Here, because controllers read sensors many times in a step.
+  std::optional<std::size_t> slot(SensorKind kind) const {
+    const int found = slot_of_kind_[static_cast<std::size_t>(kind)];
+    return found < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(found));
+  }
   std::optional<double> scalar(SensorKind kind) const;
-  void setGrip(bool is_closed);
+  /// Commands the last command after a change of one of its devices.
+  template <typename Change>
+  void changeCommand(const Change& change);
+  template <typename Change>
+  void changeHead(const Change& change);
 
   Hardware& hardware_;
-  std::vector<int> slot_of_kind_;  ///< by kind; -1 for none
+  std::array<int, kSensorKindNames.size()> slot_of_kind_;  ///< by kind; -1 for none
   std::optional<std::size_t> gripper_slot_;
+  std::optional<std::size_t> head_slot_;
 };
 
 }  // namespace robosim

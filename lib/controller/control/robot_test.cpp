@@ -54,6 +54,36 @@ TEST(Robot, ReturnsTheTimeOfItsReadings) {
   EXPECT_DOUBLE_EQ(robot.time(), 0.7);
 }
 
+TEST(Robot, CommandsTheHeadOfItsCamera) {
+  FakeHardware hardware;
+  {
+    Robot robot(hardware);
+    robot.aimCamera(1, 1);
+    robot.zoomCamera(3);
+    EXPECT_EQ(hardware.lastCommand(), Command{}) << "it has none";
+    EXPECT_EQ(robot.cameraAim(), CameraAim{});
+    EXPECT_EQ(robot.cameraHead(), nullptr);
+  }
+  const std::size_t slot = hardware.addSensor(SensorKind::values, {}, CameraAim{0.25, 0.5, 2}.values());
+  auto sensors = std::make_shared<std::vector<SensorInfo>>(*hardware.info().sensors);
+  (*sensors)[slot].quantities = CameraAim::quantities();
+  (*sensors)[slot].head.zoom_max = 16;
+  hardware.mutableInfo().sensors = sensors;
+  Robot robot(hardware);
+  ASSERT_TRUE(robot.cameraHead());
+  EXPECT_EQ(robot.cameraHead()->zoom_max, 16);
+  EXPECT_EQ(robot.cameraAim(), (CameraAim{0.25, 0.5, 2}));
+  robot.zoomCamera(3);
+  robot.limitCameraSpeed(0.5, 0.25);
+  robot.aimCamera(1, -0.5);
+  robot.drive(0.5, 0);
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5, .camera_head = {{1, -0.5, 3}, 0.5, 0.25}}));
+  robot.stopCamera();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5, .camera_head = {{0.25, 0.5, 2}, 0.5, 0.25}}));
+  robot.halt();
+  EXPECT_EQ(hardware.lastCommand().camera_head.aim, (CameraAim{0.25, 0.5, 2}));
+}
+
 TEST(Robot, PassesItsCommandsOn) {
   FakeHardware hardware;
   Robot robot(hardware);
@@ -62,6 +92,25 @@ TEST(Robot, PassesItsCommandsOn) {
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.3, .turn_radps = -0.2, .laser_pan_rad = 0.5f}));
   robot.stop();
   EXPECT_EQ(hardware.lastCommand(), (Command{.laser_pan_rad = 0.5f}));
+}
+
+TEST(Robot, HasALateralSpeedIfItsDriveIsOmnidirectional) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  try {
+    robot.drive(0.1, 0.2, 0.3);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "robot 'fake' has a drive of the type differential, which has no lateral speed; use 0, or a robot with "
+        "<drive type=\"omni\"/>");
+  }
+  hardware.setDrive({.kind = DriveKind::omni});
+  robot.drive(0.1, 0.2, 0.3);
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.1, .turn_radps = 0.2, .lateral_mps = 0.3}));
+  robot.stop();
+  EXPECT_EQ(hardware.lastCommand(), Command());
 }
 
 TEST(Robot, OnceHaltedIgnoresCommands) {
@@ -81,6 +130,22 @@ TEST(Robot, KeepsThePanOfItsLaserWhenItHalts) {
   robot.panLaser(0.5);
   robot.halt();
   EXPECT_EQ(hardware.lastCommand(), (Command{.laser_pan_rad = 0.5F, .activity = Activity::halted}));
+}
+
+TEST(Robot, KeepsTheColourOfItsLedsWhileItDrivesStopsAndHalts) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  EXPECT_EQ(robot.leds(), (std::array<float, 3>{0, 0, 0}));
+  robot.setLeds({1, 0.2F, 0});
+  EXPECT_EQ(hardware.lastCommand(), Command{.led_color = 0xff3300});
+  EXPECT_EQ(robot.leds(), (std::array<float, 3>{1, 0.2F, 0}));
+  robot.drive(0.3, 0.1);
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.3, .turn_radps = 0.1, .led_color = 0xff3300}));
+  robot.stopInEmergency();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.emergency_stop = true, .led_color = 0xff3300}));
+  robot.halt();
+  robot.setLeds({-1, 2, 0});
+  EXPECT_EQ(hardware.lastCommand(), (Command{.activity = Activity::halted, .led_color = 0x00ff00})) << "limited";
 }
 
 TEST(Robot, SendsAndReceivesMessages) {

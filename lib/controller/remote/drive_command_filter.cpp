@@ -33,7 +33,7 @@ void DriveCommandFilter::obey(const v1::ControlRequest& order, Clock::time_point
       set(order.drive());
       break;
     case OrderRule::stop:
-      if (speed_mps_ != 0 || turn_radps_ != 0 || whyOf(order).empty()) stop(std::string(whyOf(order)));
+      if (isDriving() || whyOf(order).empty()) stop(std::string(whyOf(order)));
       return;
     default:
       return;  // does not steer
@@ -60,11 +60,14 @@ void DriveCommandFilter::set(const v1::ControlRequest::Drive& drive) {
     turn_radps_ = std::clamp(drive.turn_radps(), -limits_.turn_max_radps, limits_.turn_max_radps);
     turn_is_short_ = false;
   }
+  if (drive.has_lateral_mps()) {
+    lateral_mps_ = std::clamp(drive.lateral_mps(), -limits_.lateral_max_mps, limits_.lateral_max_mps);
+  }
   if (drive.has_laser_pan_rad()) laser_pan_rad_ = drive.laser_pan_rad();
 }
 
 void DriveCommandFilter::release(const std::string& why) {
-  if (speed_mps_ != 0 || turn_radps_ != 0) stop(why);
+  if (isDriving()) stop(why);
 }
 
 void DriveCommandFilter::stop(const std::string& why) {
@@ -73,7 +76,7 @@ void DriveCommandFilter::stop(const std::string& why) {
 }
 
 void DriveCommandFilter::stand(const std::string& why) {
-  speed_mps_ = turn_radps_ = 0;
+  speed_mps_ = turn_radps_ = lateral_mps_ = 0;
   turn_is_short_ = false;
   why_stopped_ = why;
   if (!why.empty()) ++stops_;
@@ -89,7 +92,8 @@ Command DriveCommandFilter::command(Clock::time_point now, const std::string& dr
           .turn_radps = turn_radps_,
           .laser_pan_rad = laser_pan_rad_,
           .by_driver = true,
-          .emergency_stop = is_stopping_};
+          .emergency_stop = is_stopping_,
+          .lateral_mps = lateral_mps_};
 }
 
 }  // namespace robosim

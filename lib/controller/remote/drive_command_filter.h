@@ -14,7 +14,8 @@ namespace robosim {
 ///
 /// ACCELERATE and DECELERATE change the speed by a tenth of the robot's maximum, and reach 0 exactly; negative speeds
 /// are backwards. TURN_LEFT and TURN_RIGHT turn at half of the maximum for kTurnTime, extended by each repetition.
-/// DRIVE sets speed and turn, clamped to the robot's maximum. The robot's limits on acceleration always apply.
+/// DRIVE sets speed, turn and lateral speed, clamped to the robot's maximum. The robot's limits on acceleration always
+/// apply.
 ///
 /// Dead-man timeout: the robot stops when its driver has sent no message for longer than `dead_man`; whyStopped()
 /// returns the reason. It stands until it is steered again; ALIVE does not restart it.
@@ -58,12 +59,13 @@ class DriveCommandFilter {
   void set(const v1::ControlRequest::Drive& drive);
   void stop(const std::string& why);
   void stand(const std::string& why);
+  bool isDriving() const { return speed_mps_ != 0 || turn_radps_ != 0 || lateral_mps_ != 0; }
 
   MotionLimits limits_;
   Clock::duration dead_man_;
   Clock::time_point last_message_, turn_ends_;
   bool turn_is_short_ = false;  ///< the turn ends at turn_ends_
-  double speed_mps_ = 0, turn_radps_ = 0;
+  double speed_mps_ = 0, turn_radps_ = 0, lateral_mps_ = 0;
   float laser_pan_rad_ = 0;
   bool is_stopping_ = false;
   std::string why_stopped_;

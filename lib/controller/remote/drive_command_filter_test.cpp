@@ -36,6 +36,19 @@ TEST_F(DriveCommandFilterTest, AcceleratesByATenthOfTheMaximum) {
   EXPECT_DOUBLE_EQ(command().speed_mps, 2);
 }
 
+TEST_F(DriveCommandFilterTest, ClampsALateralSpeedToTheMaximumWhichMostRobotsLack) {
+  filter.obey(driveOrder(1, {}, {}, 0.5), now);
+  EXPECT_EQ(command(), (Command{.speed_mps = 1, .by_driver = true}));
+  MotionLimits limits = kLimits;
+  limits.lateral_max_mps = 0.4;
+  filter = DriveCommandFilter(limits);
+  filter.begin(now);
+  filter.obey(driveOrder({}, {}, {}, -0.5), now);
+  EXPECT_EQ(command(), (Command{.by_driver = true, .lateral_mps = -0.4}));
+  filter.obey(stopOrder("left"), now);
+  EXPECT_EQ(command().lateral_mps, 0);
+}
+
 TEST_F(DriveCommandFilterTest, DeceleratesThroughStandstillToDrivingBackwards) {
   drive(0.4, {});
   for (const double expected : {0.2, 0.0, -0.2}) {

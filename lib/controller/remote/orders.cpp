@@ -44,12 +44,13 @@ Request makeOrder(OrderType type) {
 }
 
 Request driveOrder(std::optional<double> speed_mps, std::optional<double> turn_radps,
-                   std::optional<double> laser_pan_rad) {
+                   std::optional<double> laser_pan_rad, std::optional<double> lateral_mps) {
   Request order;
   auto& drive = *order.mutable_drive();
   if (speed_mps) drive.set_speed_mps(*speed_mps);
   if (turn_radps) drive.set_turn_radps(*turn_radps);
   if (laser_pan_rad) drive.set_laser_pan_rad(static_cast<float>(*laser_pan_rad));
+  if (lateral_mps) drive.set_lateral_mps(*lateral_mps);
   return order;
 }
 
@@ -105,6 +106,7 @@ void validate(const Request& request) {
     case Request::kDrive:
       checkFinite(request.drive().speed_mps(), "speed_mps");
       checkFinite(request.drive().turn_radps(), "turn_radps");
+      checkFinite(request.drive().lateral_mps(), "lateral_mps");
       return checkFinite(request.drive().laser_pan_rad(), "laser_pan_rad");
     case Request::kStop:  // takes effect whatever the length of its reason
       return checkText(whyOf(request), kMaxWhyBytes, "a reason to stop");
@@ -119,7 +121,7 @@ void validate(const v1::RobotState& state) {
   if (!decode(state.activity())) {
     throw WireError("a robot with the unknown activity " + std::to_string(state.activity()));
   }
-  if (!std::isfinite(state.speed_mps()) || !std::isfinite(state.turn_radps())) {
+  if (!std::isfinite(state.speed_mps()) || !std::isfinite(state.turn_radps()) || !std::isfinite(state.lateral_mps())) {
     throw WireError("a robot whose command is not finite");
   }
   if (!std::isfinite(state.driven_m())) throw WireError("a robot whose driven distance is not finite");

@@ -128,7 +128,7 @@ constexpr bool supersedes(OrderRule newer, OrderRule older) {
 v1::ControlRequest makeOrder(OrderType type);
 /// Absent values are unchanged.
 v1::ControlRequest driveOrder(std::optional<double> speed_mps, std::optional<double> turn_radps = {},
-                              std::optional<double> laser_pan_rad = {});
+                              std::optional<double> laser_pan_rad = {}, std::optional<double> lateral_mps = {});
 /// @param why reason, if the driver has not requested the stop; truncated to kMaxWhyBytes
 v1::ControlRequest stopOrder(std::string_view why = "");
 v1::ControlRequest modeOrder(bool autonomous);

@@ -72,7 +72,8 @@ RemoteControlRobot::~RemoteControlRobot() = default;
 
 void RemoteControlRobot::step() {
   const Odometry* const odometry = odometryOf(hardware_.readings());
-  const bool is_moving = odometry && (odometry->speed_mps != 0 || odometry->turn_radps != 0);
+  const bool is_moving =
+      odometry && (odometry->speed_mps != 0 || odometry->turn_radps != 0 || odometry->lateral_mps != 0);
   bool autonomous = true;
   bool wants_check_win = false;
   Command driven;
@@ -101,13 +102,16 @@ void RemoteControlRobot::step() {
     was_autonomous_ = false;
     view_->skipStep();
     driven.activity = view_->lastCommand().activity;  // final once the controller has halted
-    driven.grip = hardware_.lastCommand().grip;       // the driver has no order for it
+    driven.grip = hardware_.lastCommand().grip;       // the driver has no order for this and those that follow
+    driven.led_color = hardware_.lastCommand().led_color;
+    driven.camera_head = hardware_.lastCommand().camera_head;
     hardware_.command(driven);
   }
   const Command& commanded = autonomous ? view_->lastCommand() : driven;
   const std::lock_guard lock(mutex_);
   state_.set_speed_mps(commanded.speed_mps);
   state_.set_turn_radps(commanded.turn_radps);
+  state_.set_lateral_mps(commanded.lateral_mps);
   state_.set_activity(encode(commanded.activity));
   const Readings& readings = hardware_.readings();
   state_.set_winner(readings.winner);

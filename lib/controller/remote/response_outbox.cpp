@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hardware/picture_file.h"
+
 namespace robosim {
 
 namespace {
@@ -10,7 +12,7 @@ namespace {
 void forward(const v1::RobotReadings& received, v1::RobotReadings& out) {
   for (const auto& measurement : received.measurements()) {
     v1::Measurement& copy = *out.add_measurements();
-    if (measurement.jpeg().empty()) copy = measurement;
+    if (measurement.jpeg().empty() && measurement.raw_picture().empty()) copy = measurement;
   }
   out.set_stalled(received.stalled());
   out.set_laser_pan_rad(received.laser_pan_rad());
@@ -23,7 +25,7 @@ void forward(const v1::RobotReadings& received, v1::RobotReadings& out) {
 void PortRobot::keepPictures() {
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const auto* image = std::get_if<Image>(&readings().measurements[i]);
-    if (image && !image->jpeg.empty()) pictures_[i] = {readings().time.step, image->jpeg};
+    if (image && !image->isEmpty()) pictures_[i] = {readings().time.step, *image};
   }
 }
 
@@ -118,9 +120,10 @@ void ResponseOutbox::addAll(bool is_driver, const v1::RobotReadings* received) {
   }
   for (std::size_t i = 0; i < robot_.pictures().size(); ++i) {
     const PortRobot::Picture& picture = robot_.pictures()[i];
-    if (picture.step <= sent_[i]) continue;
     v1::Measurement& measurement = *all.mutable_readings()->mutable_measurements(static_cast<int>(i));
-    measurement.set_jpeg(picture.jpeg);
+    if (!measurement.raw_picture().empty()) measurement.Clear();  // remote controls show files
+    if (picture.step <= sent_[i]) continue;
+    measurement.set_jpeg(jpegOf(picture.image));
     measurement.set_step(*picture.step);
     measurement.set_is_new(true);
   }

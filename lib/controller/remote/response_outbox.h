@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,7 +18,7 @@ class PortRobot {
  public:
   struct Picture {
     std::optional<std::uint64_t> step;  ///< none before its first picture
-    std::string jpeg;
+    Image image;
   };
 
   /// @param robot must outlive this

@@ -125,6 +125,21 @@ TEST_F(ResponseOutboxTest, SendsEachPictureOnceEvenIfItsStepWasMissed) {
   EXPECT_EQ(picture_in(take()), "");
 }
 
+TEST_F(ResponseOutboxTest, SendsAFileOfAnExactPicture) {
+  RawPicture raw;
+  raw.width_px = raw.height_px = 1;
+  raw.range_max_m = 1;
+  raw.rgb = {200, 100, 50};
+  hardware.mutableReadings().measurements[4] = Image{"", std::make_shared<const RawPicture>(raw)};
+  port_robot.keepPictures();
+  outbox.requestAll();
+  step();
+  const auto message = take();
+  const v1::Measurement& sent = message.all().readings().measurements(4);
+  EXPECT_TRUE(sent.raw_picture().empty());
+  EXPECT_EQ(sent.jpeg().substr(0, 2), "\xFF\xD8");
+}
+
 TEST_F(ResponseOutboxTest, ForwardsAReceivedMessageAsItWouldEncodeItsReadings) {
   ResponseOutbox encoding{port_robot, welcome()};
   hardware.setHeat(7);

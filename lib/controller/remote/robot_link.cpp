@@ -219,7 +219,7 @@ void RobotLink::Impl::processUpdate(const v1::ControlResponse::AllReadings& all)
       const std::uint64_t step = all.readings().measurements(static_cast<int>(i)).step();
       news.picture = std::make_shared<const RobotPicture>(RobotPicture{step, std::move(image->jpeg)});
     }
-    image->jpeg.clear();
+    *image = {};
   }
   news.update = std::move(update);
   request_all_is_due = is_live;

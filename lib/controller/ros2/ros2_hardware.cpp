@@ -285,12 +285,14 @@ void Ros2Hardware::sendCommand() {
     return may_move && std::isfinite(value) ? std::clamp(value, -limit, limit) : 0;
   };
   sendSpeeds(limited(command_.speed_mps, info_.limits.speed_max_mps),
-             limited(command_.turn_radps, info_.limits.turn_max_radps));
+             limited(command_.turn_radps, info_.limits.turn_max_radps),
+             limited(command_.lateral_mps, info_.limits.lateral_max_mps));
 }
 
-void Ros2Hardware::sendSpeeds(double speed_mps, double turn_radps) {
+void Ros2Hardware::sendSpeeds(double speed_mps, double turn_radps, double lateral_mps) {
   ros::Twist twist;
   twist.linear.x = speed_mps;
+  twist.linear.y = lateral_mps;
   twist.angular.z = turn_radps;
   const auto write = [](dds::Writer& writer, const auto& message) {
     std::vector<std::uint8_t> bytes;

@@ -105,7 +105,7 @@ class Ros2Hardware final : public RealRobot, public BaseLink {
   bool isStepComplete() const;
   ///@}
   void sendCommand();
-  void sendSpeeds(double speed_mps, double turn_radps);
+  void sendSpeeds(double speed_mps, double turn_radps, double lateral_mps = 0);
   void takeReadings();
   void takeBaseState();
   /// Which range sensor's readings are old; empty for none.

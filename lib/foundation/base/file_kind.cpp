@@ -123,6 +123,10 @@ constexpr std::array kDescriptions{
     Description{FileKind::robot_list, "a list of robots", "robosim remote and check take it"},
     Description{FileKind::other_xml, "an XML file of another program", "worlds begin with <world>"},
     Description{FileKind::gridmap, "a map (.gridmap)", "robosim run, serve, check, view, export and arcos take it"},
+    Description{FileKind::simple_map, "a map (.simplemap of MRPT)",
+                "robosim run, serve, check, view, export and arcos take it"},
+    Description{FileKind::octomap, "a map (.bt or .ot of OctoMap)",
+                "robosim run, serve, check, view, export and arcos take it"},
     Description{FileKind::ros_yaml, "a map (.yaml of ROS)",
                 "robosim run, serve, check, view, export and arcos take it"},
     Description{FileKind::picture, "a picture",
@@ -136,14 +140,9 @@ constexpr std::array kDescriptions{
                 "a world refers to it, as in <map file=\"plan.bmp\" resolution=\"0.05\"/>"},
     Description{FileKind::jpeg, "a picture in the format JPEG",
                 "a world refers to it, as in <map file=\"plan.jpg\" resolution=\"0.05\"/>"},
-    Description{FileKind::octomap, "an OctoMap",
-                "no command reads it; maps are read from .gridmap, .yaml of ROS, .png, .pgm and .map"},
     Description{FileKind::stage_world, "a world of Stage",
                 "robosim run, serve, check, view, export and convert take it"},
-    Description{FileKind::carmen_log, "a CARMEN log",
-                "convert it by MRPT's carmen2rawlog; robosim replay takes the result"},
-    Description{FileKind::simple_map, "a simple map of MRPT",
-                "no command reads it; MRPT's simplemap2rawlog or its grid map can be read"},
+    Description{FileKind::carmen_log, "a CARMEN log", "robosim replay, view, export and fit take it"},
     Description{FileKind::scene_3d, "a 3D scene of MRPT", "no command reads it; MRPT's SceneViewer3D does"},
     Description{FileKind::rosbag, "a bag of ROS 1",
                 "convert it by rosbags-convert (pip install rosbags), or by MRPT's rosbag2rawlog; robosim replay takes "
@@ -218,6 +217,13 @@ void requireKind(const std::filesystem::path& file, const std::vector<FileKind>&
   });
   if (kind == FileKind::other_xml && takes_xml) return;
   throw ConfigError(file.string() + ": is " + kindText(kind));
+}
+
+bool isMcapName(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".mcap";
 }
 
 }  // namespace robosim

@@ -14,9 +14,11 @@ enum class FileKind {
   robot_type,
   robot_list,  ///< of 2005
   other_xml,
-  gridmap,   ///< MRPT's COccupancyGridMap2D
-  ros_yaml,  ///< of ROS's map_server
-  picture,   ///< PNG, PGM, PPM or PBM
+  gridmap,     ///< MRPT's COccupancyGridMap2D
+  simple_map,  ///< MRPT's CSimpleMap
+  octomap,     ///< .bt and .ot
+  ros_yaml,    ///< of ROS's map_server
+  picture,     ///< PNG, PGM, PPM or PBM
   bmp,
   jpeg,
   stage_world,  ///< of Stage 2 to 4
@@ -24,10 +26,8 @@ enum class FileKind {
   rawlog,       ///< MRPT's
   mcap,
   sqlite,  ///< of rosbag2
-  // Of other programs:
-  octomap,
   carmen_log,
-  simple_map,
+  // Of other programs:
   scene_3d,
   rosbag,
   zip,
@@ -36,9 +36,11 @@ enum class FileKind {
 
 /// @name Kinds that commands take
 ///@{
-inline const std::vector<FileKind> kWorldKinds{FileKind::world,   FileKind::gridmap,    FileKind::ros_yaml,
-                                               FileKind::picture, FileKind::activmedia, FileKind::stage_world};
-inline const std::vector<FileKind> kRecordingKinds{FileKind::rawlog, FileKind::mcap, FileKind::sqlite};
+inline const std::vector<FileKind> kWorldKinds{FileKind::world,      FileKind::gridmap,    FileKind::simple_map,
+                                               FileKind::octomap,    FileKind::ros_yaml,   FileKind::picture,
+                                               FileKind::activmedia, FileKind::stage_world};
+inline const std::vector<FileKind> kRecordingKinds{FileKind::rawlog, FileKind::mcap, FileKind::sqlite,
+                                                   FileKind::carmen_log};
 ///@}
 
 /// Kind of a file with these first bytes, decompressed; a few kilobytes suffice.
@@ -54,5 +56,8 @@ std::string kindText(FileKind kind);
 /// with others, so unknown kinds and other XML pass.
 /// @throws ConfigError "FILE: is a rawlog, and not a world or a map; …"
 void requireKind(const std::filesystem::path& file, const std::vector<FileKind>& taken);
+
+/// Whether a recording of this name is an MCAP file: one that ends in ".mcap".
+bool isMcapName(const std::filesystem::path& file);
 
 }  // namespace robosim

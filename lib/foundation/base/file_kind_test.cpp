@@ -37,6 +37,7 @@ TEST(FileKind, IsRecognisedByTheFirstBytes) {
 
 TEST(FileKind, IsRecognisedForFilesOfOtherPrograms) {
   EXPECT_EQ(kindOfBytes("# Octomap OcTree binary file\n"), FileKind::octomap);
+  EXPECT_EQ(kindOfBytes("# Octomap OcTree file\n"), FileKind::octomap);
   EXPECT_EQ(kindOfBytes("BM:"), FileKind::bmp);
   EXPECT_EQ(kindOfBytes("\xff\xd8\xff\xe0"), FileKind::jpeg);
   EXPECT_EQ(kindOfBytes("# a world\n\ndefine wall model ( size [1 1 1] )\n"), FileKind::stage_world);

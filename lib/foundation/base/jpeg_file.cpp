@@ -2,6 +2,8 @@
 
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
+#include <memory>
 
 // libjpeg's headers need <cstdio>.
 #include <jerror.h>
@@ -129,6 +131,32 @@ JpegPicture decodeJpeg(std::string_view file, std::string& fault) {
   picture.rows = decoder.jpeg.image_height;
   fault.clear();
   return picture;
+}
+
+std::string encodeJpeg(const JpegPicture& picture, int quality) {
+  jpeg_compress_struct jpeg{};
+  jpeg_error_mgr errors{};  // the default handler: valid arguments cause no error but a lack of memory
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&jpeg, &bytes, &size);
+  jpeg.image_width = picture.columns;
+  jpeg.image_height = picture.rows;
+  jpeg.input_components = 3;
+  jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, quality, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  while (jpeg.next_scanline < jpeg.image_height) {
+    // libjpeg's interface has no const; it does not write to the row.
+    auto* row = const_cast<JSAMPROW>(picture.values.data() + std::size_t{3} * picture.columns * jpeg.next_scanline);
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  const std::unique_ptr<unsigned char, void (*)(void*)> owned(bytes, std::free);
+  return {reinterpret_cast<const char*>(bytes), size};
 }
 
 }  // namespace robosim

@@ -35,4 +35,7 @@ JpegSize jpegSize(std::string_view file);
 JpegPicture decodeJpeg(std::string_view file, std::string& fault);
 ///@}
 
+/// A JPEG file of a picture. @pre it has pixels and 3 channels @param quality [1, 100]
+std::string encodeJpeg(const JpegPicture& picture, int quality);
+
 }  // namespace robosim

@@ -41,6 +41,7 @@ class ParallelExecutor {
   template <typename Value, typename Map, typename Combine>
   Value reduce(std::size_t n, Value start, const Map& map, const Combine& combine) const {
     const std::size_t pieces = piecesOf(n);
+    if (pieces == 1) return combine(start, map(0, n));  // without the array, which costs more than a small world's work
     std::array<Value, kPiecesMax> of_piece{};
     forChunks(pieces, 1, [&](std::size_t p, std::size_t) { of_piece[p] = map(p * n / pieces, (p + 1) * n / pieces); });
     for (std::size_t p = 0; p < pieces; ++p) start = combine(start, of_piece[p]);

@@ -1,5 +1,6 @@
 #include "foxglove/client_message.h"
 
+#include <bit>
 #include <limits>
 
 namespace robosim::foxglove {
@@ -13,7 +14,7 @@ constexpr int kMaxDepth = 16;
 constexpr std::size_t kMaxQuoted = 200;
 
 /// Opcodes.
-constexpr unsigned char kReceivedMessage = 1, kServiceRequest = 2;
+constexpr unsigned char kReceivedMessage = 1, kServiceRequest = 2, kPlaybackControl = 3;
 
 std::string shortened(std::string_view text) { return std::string(text.substr(0, kMaxQuoted)); }
 
@@ -103,9 +104,10 @@ class BinaryReader {
  public:
   explicit BinaryReader(std::string_view bytes) : bytes_(bytes) {}
 
-  std::uint32_t number(const char* of) {
-    const std::string_view field = take(sizeof(std::uint32_t), of);
-    std::uint32_t value = 0;
+  template <typename Number = std::uint32_t>
+  Number number(const char* of) {
+    const std::string_view field = take(sizeof(Number), of);
+    Number value = 0;
     for (std::size_t i = field.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(field[i]);
     return value;
   }
@@ -169,6 +171,20 @@ ClientMessage parseBinary(std::string_view bytes) {
     call.encoding = reader.take(reader.number(kName), kName);
     call.payload = reader.rest();
     return call;
+  }
+  if (opcode == kPlaybackControl) {
+    constexpr const char* kName = "a playback control";
+    const auto byte = [&] { return static_cast<unsigned char>(reader.take(1, kName)[0]); };
+    PlaybackControl playback;
+    const unsigned command = byte();
+    if (command > 1) throw ClientMessageError("a playback control of the command " + std::to_string(command));
+    playback.plays = command == 0;
+    playback.speed = std::bit_cast<float>(reader.number(kName));
+    const bool seeks = byte() != 0;
+    const auto seek_ns = reader.number<std::uint64_t>(kName);
+    if (seeks) playback.seek_ns = seek_ns;
+    playback.id = reader.take(reader.number(kName), kName);
+    return playback;
   }
   throw ClientMessageError("binary messages of the opcode " + std::to_string(opcode) + " are not supported");
 }

@@ -66,8 +66,16 @@ struct ServiceCall {
   std::string_view payload;
 };
 
+/// Controls the playback of a recording.
+struct PlaybackControl {
+  bool plays = false;  ///< else it pauses
+  float speed = 1;     ///< any number
+  std::optional<std::uint64_t> seek_ns;
+  std::string id;  ///< of the request
+};
+
 using ClientMessage = std::variant<Subscribe, Unsubscribe, Advertise, Unadvertise, GetParameters, SetParameters,
-                                   WatchParameters, PublishedMessage, ServiceCall>;
+                                   WatchParameters, PublishedMessage, ServiceCall, PlaybackControl>;
 
 /// Parses a text message. Members that are not known are ignored, as the protocol requires.
 /// @throws ClientMessageError

@@ -13,6 +13,10 @@ constexpr const char* kSlow =
 
 WebMessagePtr shared(const std::string& text) { return std::make_shared<const WebMessage>(WebMessage::text(text)); }
 
+WebMessagePtr binary(const std::string& bytes) {
+  return std::make_shared<const WebMessage>(WebMessage::binary(bytes, {}));
+}
+
 /// Whether a client may connect at all: to watch, or to drive some robot.
 bool mayJoin(const Access& access, const Identity& identity) {
   return access.check(identity, Right::look).ok() || access.check(identity, Right::drive).ok();
@@ -38,6 +42,7 @@ void Hub::offer(Offer offer) {
     channels_text_ = shared(advertiseText(offer_.channels, first_channel_));
     services_text_ = offer_.services.empty() ? nullptr : shared(advertiseServicesText(offer_.services, first_service_));
     requests_.clear();
+    playback_.reset();
     for (auto& [id, page] : pages_) sendOffer(page);
   }
   wanted_.clear();
@@ -63,6 +68,7 @@ void Hub::sendOffer(Page& page) {
   control(page, info_text_);
   control(page, channels_text_);
   if (services_text_) control(page, services_text_);
+  if (playback_) control(page, binary(playbackStateMessage(*playback_, "")));
 }
 
 bool Hub::isSubscribed(std::size_t channel) const {
@@ -145,6 +151,20 @@ void Hub::setParameters(const std::vector<Parameter>& parameters) {
         return page.watches_all || page.watched.count(parameter.name) > 0;
       });
       if (!watched.empty()) control(page, parameterValuesText(watched, std::nullopt));
+    }
+  }
+  options_.on_news();
+}
+
+void Hub::setPlayback(const PlaybackState& state, const PlaybackRequest* request) {
+  {
+    const std::lock_guard lock(mutex_);
+    playback_ = state;
+    playback_->did_seek = false;
+    const WebMessagePtr message = binary(playbackStateMessage(state, ""));
+    for (auto& [id, page] : pages_) {
+      const bool is_answer = request && request->client.id == id;
+      control(page, is_answer ? binary(playbackStateMessage(state, request->control.id)) : message);
     }
   }
   options_.on_news();
@@ -370,6 +390,14 @@ void Hub::handle(Page& page, const ServiceCall& message) {
     return;
   }
   request(page, ServiceRequest{page.client, service, message.call, message.encoding, std::string(message.payload)});
+}
+
+void Hub::handle(Page& page, const PlaybackControl& message) {
+  if (!offer_.info.duration_ns) {
+    status(page, StatusLevel::error, "this server plays no recording");
+    return;
+  }
+  request(page, PlaybackRequest{page.client, message});
 }
 
 void Hub::request(Page& page, Request request) {

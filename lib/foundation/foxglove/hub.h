@@ -49,7 +49,11 @@ struct ServiceRequest {
   std::uint32_t call = 0;
   std::string encoding, payload;
 };
-using Request = std::variant<ParameterChange, ServiceRequest>;
+struct PlaybackRequest {
+  Client client;
+  PlaybackControl control;
+};
+using Request = std::variant<ParameterChange, ServiceRequest, PlaybackRequest>;
 ///@}
 
 /// Handles what clients publish. Called in the web server's thread, without a lock of the hub; texts of refusals are
@@ -119,6 +123,9 @@ class Hub {
   void answer(const ParameterChange& change);
   void answer(const ServiceRequest& call, std::span<const std::uint8_t> response);
   void refuse(const ServiceRequest& call, const std::string& why);
+  /// Informs all clients of the playback of a recording, those that come later, too.
+  /// @param request whose effect it is; null: of none
+  void setPlayback(const PlaybackState& state, const PlaybackRequest* request = nullptr);
   void sendStatus(PageId client, StatusLevel level, const std::string& text);
   void audit(const Client& client, const std::string& action) { audit_.write(client.identity, client.peer, action); }
   /// Whether a client's token has a right now. @param robot to drive; empty for none
@@ -174,6 +181,7 @@ class Hub {
   void handle(Page& page, const SetParameters& message);
   void handle(Page& page, const WatchParameters& message);
   void handle(Page& page, const ServiceCall& message);
+  void handle(Page& page, const PlaybackControl& message);
   ///@}
   /// @name The same, which lock the mutex themselves: they call PublicationHandler
   ///@{
@@ -206,6 +214,7 @@ class Hub {
   bool has_fresh_ = false;
   std::map<PageId, Page> pages_;
   std::vector<Parameter> parameters_;
+  std::optional<PlaybackState> playback_;
   std::vector<Request> requests_;
   std::vector<std::pair<PageId, std::string>> leaving_;
   std::uint64_t access_version_ = 0;

@@ -241,6 +241,32 @@ TEST_F(FoxgloveHub, PassesRequestsToTheSourceAndAnswersThem) {
   EXPECT_EQ(hub->nextMessage(1)->bytes(), "\x03\x01\0\0\0\x05\0\0\0\x03\0\0\0cdrok"s);
 }
 
+TEST_F(FoxgloveHub, PassesControlsOfAPlaybackAndInformsAllClientsOfIt) {
+  const auto control = "\x03\x01\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\x01\0\0\0q"s;
+  start();
+  open(1);
+  hub->pageBinary(1, control);
+  EXPECT_EQ(last(1), status(2, "this server plays no recording"));
+  auto recording = offer("recording");
+  recording.info.duration_ns = 5;
+  hub->offer(recording);
+  open(2);
+  received(1);
+  received(2);
+  hub->pageBinary(1, control);
+  const auto requests = hub->takeRequests();
+  ASSERT_EQ(requests.size(), 1u);
+  const auto& request = std::get<PlaybackRequest>(requests[0]);
+  const PlaybackState paused{PlaybackStatus::paused, 3, 1, true};
+  hub->setPlayback(paused, &request);
+  EXPECT_EQ(hub->nextMessage(1)->bytes(), playbackStateMessage(paused, "q"));
+  EXPECT_EQ(hub->nextMessage(2)->bytes(), playbackStateMessage(paused, ""));
+  open(3);
+  std::string latest;
+  while (const auto message = hub->nextMessage(3)) latest = message->bytes();
+  EXPECT_EQ(latest, playbackStateMessage({PlaybackStatus::paused, 3, 1, false}, "")) << "of a later client";
+}
+
 TEST_F(FoxgloveHub, BoundsTheRequestsThatWait) {
   start();
   open(1);

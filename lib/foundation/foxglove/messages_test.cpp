@@ -50,9 +50,19 @@ TEST(FoxgloveServerMessage, OmitsTheIdAndTypeOfParametersWithoutOne) {
   EXPECT_EQ(parameterValuesText({}, "a"), R"({"op":"parameterValues","parameters":[],"id":"a"})");
 }
 
+TEST(FoxgloveServerMessage, NamesTheTimesOfARecording) {
+  EXPECT_EQ(
+      serverInfoText({"run", {}, {}, "1", 90'500'000'000}),
+      R"({"op":"serverInfo","name":"run","capabilities":[],"supportedEncodings":[],"metadata":{},"sessionId":"1",)"
+      R"("dataStartTime":{"sec":0,"nsec":0},"dataEndTime":{"sec":90,"nsec":500000000}})");
+}
+
 TEST(FoxgloveServerMessage, WritesBinaryNumbersInLittleEndianOrder) {
   EXPECT_EQ(messageDataHead(0x01020304, 0x1112131415161718), "\x01\x04\x03\x02\x01\x18\x17\x16\x15\x14\x13\x12\x11"s);
   EXPECT_EQ(timeMessage(1), "\x02\x01\0\0\0\0\0\0\0"s);
+  EXPECT_EQ(playbackStateMessage({PlaybackStatus::ended, 0x1112131415161718, 2, true}, "id"),
+            "\x05\x03\x18\x17\x16\x15\x14\x13\x12\x11\0\0\0\x40\x01\x02\0\0\0id"s)
+      << "status, time, the float 2, whether it went elsewhere, and the request";
   EXPECT_EQ(serviceResponseHead(1, 2, "cdr"), "\x03\x01\0\0\0\x02\0\0\0\x03\0\0\0cdr"s);
 }
 
@@ -119,6 +129,21 @@ TEST(FoxgloveClientMessage, ParsesPublishedMessagesAndServiceCalls) {
   EXPECT_EQ(call.call, 5u);
   EXPECT_EQ(call.encoding, "cdr");
   EXPECT_EQ(call.payload, "12");
+}
+
+TEST(FoxgloveClientMessage, ParsesPlaybackControls) {
+  const auto seek =
+      std::get<PlaybackControl>(parseBinary("\x03\x01\0\0\0\x40\x01\x18\x17\x16\x15\x14\x13\x12\x11\x02\0\0\0id"s));
+  EXPECT_FALSE(seek.plays);
+  EXPECT_EQ(seek.speed, 2);
+  EXPECT_EQ(seek.seek_ns, 0x1112131415161718u);
+  EXPECT_EQ(seek.id, "id");
+  const auto play = std::get<PlaybackControl>(parseBinary("\x03\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0"s));
+  EXPECT_TRUE(play.plays);
+  EXPECT_EQ(play.speed, 1);
+  EXPECT_EQ(play.seek_ns, std::nullopt);
+  EXPECT_EQ(whyInvalidBinary("\x03\x02\0\0\x80\x3f"s), "a playback control of the command 2");
+  EXPECT_EQ(whyInvalidBinary("\x03\0\0\0\x80\x3f"s), "a playback control: the message is too short");
 }
 
 TEST(FoxgloveClientMessage, RefusesBinaryMessagesThatAreTooShort) {

@@ -1,12 +1,14 @@
 #include "foxglove/server_message.h"
 
+#include <bit>
+
 namespace robosim::foxglove {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 /// Opcodes.
-constexpr char kSentMessage = 1, kSentTime = 2, kServiceResponse = 3;
+constexpr char kSentMessage = 1, kSentTime = 2, kServiceResponse = 3, kPlaybackState = 5;
 
 std::string textOf(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -24,12 +26,18 @@ Json idsFrom(std::uint32_t first, std::size_t count) {
 }  // namespace
 
 std::string serverInfoText(const ServerInfo& info) {
-  return textOf({{"op", "serverInfo"},
-                 {"name", info.name},
-                 {"capabilities", info.capabilities},
-                 {"supportedEncodings", info.supported_encodings},
-                 {"metadata", Json::object()},
-                 {"sessionId", info.session_id}});
+  Json message{{"op", "serverInfo"},
+               {"name", info.name},
+               {"capabilities", info.capabilities},
+               {"supportedEncodings", info.supported_encodings},
+               {"metadata", Json::object()},
+               {"sessionId", info.session_id}};
+  if (info.duration_ns) {
+    constexpr std::uint64_t kSecond_ns = 1'000'000'000;
+    message["dataStartTime"] = {{"sec", 0}, {"nsec", 0}};
+    message["dataEndTime"] = {{"sec", *info.duration_ns / kSecond_ns}, {"nsec", *info.duration_ns % kSecond_ns}};
+  }
+  return textOf(message);
 }
 
 std::string advertiseText(std::span<const Channel> channels, std::uint32_t first_id) {
@@ -97,6 +105,16 @@ std::string timeMessage(std::uint64_t time_ns) {
   std::string bytes(1, kSentTime);
   append(bytes, time_ns);
   return bytes;
+}
+
+std::string playbackStateMessage(const PlaybackState& state, const std::string& request) {
+  std::string bytes(1, kPlaybackState);
+  bytes += static_cast<char>(state.status);
+  append(bytes, state.time_ns);
+  append(bytes, std::bit_cast<std::uint32_t>(state.speed));
+  bytes += static_cast<char>(state.did_seek ? 1 : 0);
+  append(bytes, static_cast<std::uint32_t>(request.size()));
+  return bytes + request;
 }
 
 std::string serviceResponseHead(std::uint32_t service, std::uint32_t call, const std::string& encoding) {

@@ -22,6 +22,8 @@ struct ServerInfo {
   std::vector<std::string> capabilities;
   std::vector<std::string> supported_encodings;  ///< of messages that clients publish
   std::string session_id;                        ///< another one for each run
+  /// Of a recording that is played, whose playback clients control: its last time, from 0 on.
+  std::optional<std::uint64_t> duration_ns = {};
 };
 
 /// A topic whose messages clients may subscribe to.
@@ -47,6 +49,15 @@ struct Parameter {
   bool operator==(const Parameter&) const = default;
 };
 
+enum class PlaybackStatus : std::uint8_t { playing, paused, buffering, ended };
+
+struct PlaybackState {
+  PlaybackStatus status = PlaybackStatus::paused;
+  std::uint64_t time_ns = 0;
+  float speed = 1;
+  bool did_seek = false;
+};
+
 enum class StatusLevel { info, warning, error };
 
 /// @name Texts. Characters that are not well-formed UTF-8 are replaced
@@ -67,6 +78,8 @@ std::string statusText(StatusLevel level, const std::string& message);
 ///@{
 std::string messageDataHead(std::uint32_t subscription, std::uint64_t time_ns);
 std::string timeMessage(std::uint64_t time_ns);
+/// @param request id of the request that has led to it; empty: none
+std::string playbackStateMessage(const PlaybackState& state, const std::string& request);
 std::string serviceResponseHead(std::uint32_t service, std::uint32_t call, const std::string& encoding);
 ///@}
 

@@ -166,8 +166,10 @@ void Scene::cast(BeamBatch& batch, BodyId owner) const {
     candidates.addIf(is_candidate & (body != owner), item, static_cast<std::uint32_t>(body));
     if (candidates.isFull()) intersect();
   };
+  const bool is_all_round = half_plane.isEverything();
   const auto add = [&](std::uint32_t i) {
-    add_if(half_plane.mayContain(grid.items()[i]), grid.items()[i], BodyId{grid.numberOf(i)});
+    const GridItem& item = grid.items()[i];
+    add_if(is_all_round || half_plane.mayContain(item), item, BodyId{grid.numberOf(i)});
   };
   const auto reach = [&] { return batch.reach(); };
   if (!index_->visitNeighbours(owner, batch.center_, reach, add)) {
@@ -181,9 +183,9 @@ void Scene::cast(BeamBatch& batch, BodyId owner) const {
     });
   }
   const RangeCull surroundings(half_plane, batch.reach(), moving.middle());
-  moving.visitNear(surroundings.bounds(), [&](const CenterIndex::Entry& entry) {
-    add_if(surroundings.mayContain(entry.solid), moving.items()[entry.index], index_->movingBody(entry.index));
-  });
+  const std::span<const GridItem> items = moving.items();
+  const std::uint32_t first_moving = index_->firstMoving();
+  moving.visitNear(surroundings, [&](std::uint32_t i) { add_if(true, items[i], BodyId{first_moving + i}); });
   intersect();
 }
 
@@ -206,8 +208,8 @@ void Scene::clip(Path& path, double radius_m, const HeightSpan& heights, BodyId 
 void Scene::findMoving(const TPoint2D& at, double reach_m, std::size_t count, std::vector<std::uint32_t>& found) const {
   found.clear();
   const RangeCull near({at, {}, 0}, reach_m, index_->moving.middle());
-  index_->moving.visitNear(near.bounds(), [&](const CenterIndex::Entry& entry) {
-    if (near.mayContain(entry.solid) && entry.index < count) found.push_back(entry.index);
+  index_->moving.visitNear(near, [&](std::uint32_t i) {
+    if (i < count) found.push_back(i);
   });
 }
 
@@ -224,6 +226,22 @@ void Scene::findBodies(const Bounds2D& area, std::vector<BodyId>& found) const {
   });
   std::sort(found.begin() + begin, found.end());
   found.erase(std::unique(found.begin() + begin, found.end()), found.end());
+}
+
+void Scene::findSolids(const Bounds2D& area, std::vector<FoundSolid>& found) const {
+  const auto add_if_near = [&](const GridItem& item, BodyId body) {
+    if (!intersect(item.bounds(), area)) return;
+    found.push_back(
+        {{item.x, item.y}, {item.axis_x, item.axis_y}, item.half_length_m, item.half_width_m, item.heights, body});
+  };
+  const GridIndex& grid = index_->stationary;
+  VisitedBodies& visited = VisitedBodies::begin(grid.items().size());
+  grid.visitArea(area, [&](std::uint32_t i) {
+    if (visited.isFirst(i)) add_if_near(grid.items()[i], BodyId{grid.numberOf(i)});
+  });
+  index_->moving.visitNear(area, [&](const CenterIndex::Entry& entry) {
+    add_if_near(index_->moving.items()[entry.index], index_->movingBody(entry.index));
+  });
 }
 
 }  // namespace robosim

@@ -27,6 +27,16 @@ struct Hit {
 
 struct SceneIndex;  // internal: scene_index.h
 
+/// A solid of either shape in one form.
+struct FoundSolid {
+  mrpt::math::TPoint2D center;
+  mrpt::math::TPoint2D axis{1, 0};  ///< unit vector along a box's length
+  double half_length_m = 0;         ///< of a box, or a circle's radius
+  double half_width_m = 0;          ///< 0 for a circle
+  HeightSpan heights;
+  BodyId body = kNoBody;
+};
+
 /// All solids of a world at one instant, indexed for ray, sector and proximity queries. Stationary solids are indexed
 /// once; freeze() re-indexes the moving ones in linear time without allocating. All queries are const and thread-safe.
 ///
@@ -77,6 +87,8 @@ class Scene {
   /// Appends the bodies whose bounding rectangle intersects `area`, in ascending order, each once: a superset of those
   /// that overlap it.
   void findBodies(const Bounds2D& area, std::vector<BodyId>& found) const;
+  /// The same solids in no particular order, each once.
+  void findSolids(const Bounds2D& area, std::vector<FoundSolid>& found) const;
 
  private:
   std::size_t stationary_count_, moving_count_;

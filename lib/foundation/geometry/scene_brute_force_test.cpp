@@ -197,6 +197,20 @@ TEST(Scene, ListsTheBodiesNearAnAreaOnceInOrder) {
       ASSERT_EQ(std::vector<BodyId>(found.begin(), appended), before) << name;
       found.erase(found.begin(), appended);
       ASSERT_TRUE(areNear(found, scene, asked)) << name;
+      std::vector<FoundSolid> solids;
+      scene.findSolids(asked, solids);
+      std::vector<BodyId> same;
+      for (const FoundSolid& solid : solids) {
+        same.push_back(solid.body);
+        const Solid expected = scene.solid(solid.body);
+        ASSERT_EQ(solid.heights, expected.heights) << name;
+        const Outline outline = solid.half_width_m == 0
+                                    ? Outline(Circle{solid.center, solid.half_length_m})
+                                    : OrientedBox{solid.center, solid.axis, solid.half_length_m, solid.half_width_m};
+        ASSERT_EQ(boundsOf(outline), boundsOf(expected.outline)) << name;
+      }
+      std::sort(same.begin(), same.end());
+      ASSERT_EQ(same, found) << name;
     }
   });
 }

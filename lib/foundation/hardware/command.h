@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "hardware/camera_head.h"
+
 namespace robosim {
 
 /// State of a robot's task. `found` and `halted` are final: a run ends when every robot is in one of them.
@@ -24,7 +26,17 @@ struct Command {
   /// Closes the gripper, which then holds what is between its paddles; otherwise it is open, and holds nothing. Without
   /// effect on a robot without a gripper.
   bool grip = false;
+  /// Colour of the robot's LEDs, 0xRRGGBB (hardware/led_color.h); 0: off.
+  std::uint32_t led_color = 0;
+  double lateral_mps = 0;              ///< to the left; without effect on a robot whose drive is not omnidirectional
+  CameraHeadCommand camera_head = {};  ///< without effect on a robot without a camera that pans, tilts and zooms
   bool operator==(const Command&) const = default;
+
+  /// A command for an active robot at rest that leaves its devices as they are: pan angle, gripper, LEDs and
+  /// the camera's head.
+  Command keepingDevices() const {
+    return {.laser_pan_rad = laser_pan_rad, .grip = grip, .led_color = led_color, .camera_head = camera_head};
+  }
 };
 
 }  // namespace robosim

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "hardware/measurement_fields.h"
 
@@ -60,6 +62,31 @@ std::string Description<Image>::fileFaultOf(const std::string& jpeg) {
   }
   const bool is_valid = jpeg.empty() || (jpeg.starts_with("\xFF\xD8") && jpeg.ends_with("\xFF\xD9"));
   return is_valid ? "" : "a picture that is no JPEG file";
+}
+
+void Description<Image>::setFile(Image& image, std::string file) {
+  if (RawPicture::isIn(file)) {
+    image = {"", std::make_shared<RawPicture>(RawPicture::fromBytes(file))};
+    return;
+  }
+  if (const std::string fault = fileFaultOf(file); !fault.empty()) throw std::invalid_argument(fault);
+  image = {std::move(file)};
+}
+
+const char* pictureFaultOf(std::span<const Measurement> measurements, std::span<const SensorInfo> sensors) {
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const auto* image = std::get_if<Image>(&measurements[i]);
+    if (!image || image->isEmpty()) continue;
+    const CameraInfo& camera = sensors[i].camera;
+    if (camera.isRaycast() != (image->raw != nullptr)) return "a picture of another model of camera";
+    if (!image->raw) continue;
+    const RawPicture& raw = *image->raw;
+    if (raw.width_px != camera.width_px || raw.height_px != camera.height_px || raw.layers() != camera.layers ||
+        raw.range_max_m != static_cast<float>(sensors[i].range_max_m)) {
+      return "a picture of another size, range or other layers than its camera's";
+    }
+  }
+  return nullptr;
 }
 
 const char* Description<Blobs>::faultOf(const Blob& blob) {

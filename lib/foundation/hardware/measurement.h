@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include "hardware/field.h"
+#include "hardware/raw_picture.h"
 #include "hardware/sensor_info.h"
 
 /// @file
@@ -31,11 +33,11 @@ namespace robosim {
 /// Optional members:
 ///  * isPresent(m): whether the sensor measured something in this step, for sensors that do not in every step. May
 ///    return a reference, which is then set when a measurement is decoded;
-///  * file(m): the bytes of a file, for a kind without numbers, and fileFaultOf(bytes): why they are impossible; empty
-///    for valid ones;
+///  * file(m): the bytes of a file, for a kind without numbers, and setFile(m, bytes), which throws
+///    std::invalid_argument with the reason why they are impossible;
 ///  * faultOf(record): why a record is impossible, beyond the fields' bounds; null for a valid record;
 ///  * is_reproducible = false: values may differ between machines (doc/decisions/pictures.md), and are neither part of
-///    the digest nor compared with a recording.
+///    the digest nor compared with a recording, except for exactBytes(m).
 template <typename M>
 struct Description;
 
@@ -48,12 +50,12 @@ struct Echo {
   bool operator==(const Echo&) const = default;
 };
 
-/// Sonar, laser, infrared: one echo per beam of the sensor's SensorInfo.
+/// Sonar, laser, lidar, infrared: one echo per beam of the sensor's SensorInfo.
 using Echoes = std::vector<Echo>;
 
 template <>
 struct Description<Echoes> {
-  static constexpr std::array kinds{SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
+  static constexpr std::array kinds{SensorKind::sonar, SensorKind::laser, SensorKind::lidar, SensorKind::infrared};
   static constexpr const char* record_name = "beam";
   static constexpr std::tuple fields{Field{"range", kMetre, kGet<&Echo::range_m>},
                                      Field{"x", kMetre, kGet<&Echo::point_m, &mrpt::math::TPoint3Df::x>},
@@ -98,6 +100,7 @@ struct Odometry {
   mrpt::math::TPose2D odom_from_robot;  ///< (0,0,0) at the start [m, rad]
   double speed_mps = 0;                 ///< in the last step, as measured at the wheels
   double turn_radps = 0;
+  double lateral_mps = 0;  ///< to the left
   bool operator==(const Odometry&) const = default;
 };
 
@@ -110,15 +113,23 @@ struct Description<Odometry> {
       Field{"y", kMetre, kGet<&Odometry::odom_from_robot, &mrpt::math::TPose2D::y>},
       Field{"heading", kRadian, kGet<&Odometry::odom_from_robot, &mrpt::math::TPose2D::phi>},
       Field{"speed", kMetrePerSecond, kGet<&Odometry::speed_mps>},
-      Field{"turn", kRadianPerSecond, kGet<&Odometry::turn_radps>}};
+      Field{"turn", kRadianPerSecond, kGet<&Odometry::turn_radps>},
+      Field{"lateral", kMetrePerSecond, kGet<&Odometry::lateral_mps>}};
   static auto records(auto& odometry) { return std::span(&odometry, 1); }
   static Odometry blank(const SensorInfo&) { return {}; }
 };
 
-/// Camera: a colour image. Its exact pixels depend on the machine (doc/decisions/pictures.md).
+/// Camera: a picture; empty in a step without one, because of the camera's rate. That of the model `opengl` is a JPEG
+/// file, whose exact pixels depend on the machine (doc/decisions/pictures.md); that of the model `raycast` is exact,
+/// and part of the digest. jpegOf() (hardware/picture_file.h) returns a file of either.
 struct Image {
-  std::string jpeg;  ///< a JPEG file's bytes; empty in a step without an image, because of the camera's rate
-  bool operator==(const Image&) const = default;
+  std::string jpeg;                            ///< the file's bytes
+  std::shared_ptr<const RawPicture> raw = {};  ///< shared by copies of readings; null: none
+
+  bool isEmpty() const { return jpeg.empty() && !raw; }
+  bool operator==(const Image& other) const {
+    return jpeg == other.jpeg && (raw == other.raw || (raw && other.raw && *raw == *other.raw));
+  }
 };
 
 template <>
@@ -129,9 +140,15 @@ struct Description<Image> {
   static constexpr bool is_reproducible = false;
   static std::span<const char> records(auto&) { return {}; }
   static Image blank(const SensorInfo&) { return {}; }
-  static bool isPresent(const Image& image) { return !image.jpeg.empty(); }
-  static auto& file(auto& image) { return image.jpeg; }
+  static bool isPresent(const Image& image) { return !image.isEmpty(); }
+  /// The bytes of a picture, of a JPEG file or of RawPicture::toBytes(), and the picture of such bytes.
+  static std::string file(const Image& image) { return image.raw ? image.raw->toBytes() : image.jpeg; }
+  static void setFile(Image& image, std::string file);
   static std::string fileFaultOf(const std::string& jpeg);
+  /// What is equal on every machine, for the digest and comparisons.
+  static std::array<std::span<const std::byte>, 3> exactBytes(const Image& image) {
+    return image.raw ? image.raw->bytes() : std::array<std::span<const std::byte>, 3>{};
+  }
 };
 
 /// Largest connected region of one colour. Image coordinates point right and down; (0, 0) is the centre of the upper
@@ -220,6 +237,11 @@ using Measurement = std::variant<Echoes, Scalar, Contacts, Odometry, Image, Blob
 
 /// Initial measurement of a sensor, of its kind and size.
 Measurement blankMeasurement(const SensorInfo& sensor);
+
+/// Why a picture of `measurements` is none of its camera: pixels of a camera of the model `opengl`, a JPEG file of one
+/// of the model `raycast`, or another size, range or other layers. Null for none.
+/// @param sensors as many as measurements
+const char* pictureFaultOf(std::span<const Measurement> measurements, std::span<const SensorInfo> sensors);
 
 /// Whether a sensor's kind of measurement is Echoes.
 inline bool measuresEchoes(const SensorInfo& sensor) {

@@ -23,7 +23,7 @@ TEST(Measurement, HasItsNumbersRecordByRecord) {
             "0.range 1 0.x 2 0.y 3 0.z 4 1.range 5 1.x 6 1.y 7 1.z 8");
   EXPECT_EQ(numbersIn(Scalar{7}), "0.value 7");
   EXPECT_EQ(numbersIn(Contacts{{1, 0}}), "0.pressed 1 1.pressed 0");
-  EXPECT_EQ(numbersIn(Odometry{{1, 2, 3}, 4, 5}), "0.x 1 0.y 2 0.heading 3 0.speed 4 0.turn 5");
+  EXPECT_EQ(numbersIn(Odometry{{1, 2, 3}, 4, 5, 6}), "0.x 1 0.y 2 0.heading 3 0.speed 4 0.turn 5 0.lateral 6");
   EXPECT_EQ(numbersIn(Image{"a file"}), "");
   EXPECT_EQ(numbersIn(Blobs{true, {{"red", 1, 2, 3, 4, 5, 6, 7}}}),
             "0.pixels 1 0.x 2 0.y 3 0.left 4 0.top 5 0.width 6 0.height 7");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hardware/drive.h"
 #include "hardware/sensor_info.h"
 
 namespace robosim {
@@ -19,6 +20,7 @@ struct MotionLimits {
   /// Slowing down in an emergency stop (Command::emergency_stop), in which the turn brakes harder in the same
   /// proportion; one below decel_mps2, such as 0, has no effect: the robot then brakes as always.
   double emergency_decel_mps2 = 0;
+  double lateral_max_mps = 0;  ///< sideways; 0 for drives that are not omnidirectional
   bool operator==(const MotionLimits&) const = default;
 };
 
@@ -32,6 +34,7 @@ struct RobotInfo {
   MotionLimits limits;
   std::shared_ptr<const std::vector<SensorInfo>> sensors;  ///< shared by all robots of a model
   std::optional<std::uint32_t> color_rgb{};                ///< 0xRRGGBB, as in all views; nullopt if unknown
+  Drive drive{};
 };
 
 }  // namespace robosim

@@ -1,9 +1,13 @@
 #include "net/robot_wire.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <stdexcept>
 
 #include "hardware/inbox_limit.h"
+#include "hardware/led_color.h"
 #include "hardware/measurement_fields.h"
 
 namespace robosim {
@@ -55,6 +59,12 @@ std::size_t numberCount(const M& measurement) {
   return Description<M>::records(measurement).size() * kFieldCount<M>;
 }
 
+template <typename M, typename Number>
+void setChecked(M& out, std::span<const Number> numbers) {
+  const std::string fault = setNumbers(out, numbers);
+  if (!fault.empty()) throw WireError(fault);
+}
+
 /// Decodes the numbers of a kind of measurement; none are a step in which an intermittent sensor measured nothing.
 template <typename M>
 void decodeNumbers(const v1::Measurement& in, M& out) {
@@ -69,9 +79,16 @@ void decodeNumbers(const v1::Measurement& in, M& out) {
       return;
     }
   }
+  if constexpr (std::is_same_v<M, Odometry>) {  // without a lateral speed
+    if (numbers.size() + 1 == numberCount(out)) {
+      std::array<double, kFieldCount<M>> all{};
+      std::copy(numbers.begin(), numbers.end(), all.begin());
+      setChecked(out, std::span<const double>(all));
+      return;
+    }
+  }
   checkCount(numbers.size(), numberCount(out));
-  const std::string fault = setNumbers(out, numbers);
-  if (!fault.empty()) throw WireError(fault);
+  setChecked(out, numbers);
 }
 
 void encode(const RobotMessage& message, v1::InboxMessage& out) {
@@ -88,6 +105,15 @@ ProcessRobotIndex checkedRobot(std::uint32_t robot, std::size_t robots, const ch
   if (robot < robots) return static_cast<ProcessRobotIndex>(robot);
   throw WireError(std::string(what) + " for robot " + std::to_string(robot) + " of " + std::to_string(robots) +
                   "; a connection may only command the robots of its hello, counted from 0");
+}
+
+CameraHeadCommand decode(const v1::CameraHead& in, std::uint32_t robot) {
+  checkFinite(in.pan_rad(), "camera_head.pan_rad", robot);
+  checkFinite(in.tilt_rad(), "camera_head.tilt_rad", robot);
+  checkFinite(in.zoom(), "camera_head.zoom", robot);
+  checkFinite(in.pan_radps(), "camera_head.pan_radps", robot);
+  checkFinite(in.tilt_radps(), "camera_head.tilt_radps", robot);
+  return {{in.pan_rad(), in.tilt_rad(), in.zoom() == 0 ? 1 : in.zoom()}, in.pan_radps(), in.tilt_radps()};
 }
 
 void decodeMessages(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out) {
@@ -153,20 +179,34 @@ void encode(const Command& command, v1::Command& out) {
   out.set_by_driver(command.by_driver);
   out.set_emergency_stop(command.emergency_stop);
   out.set_grip(command.grip);
+  out.set_led_color(command.led_color);
+  out.set_lateral_mps(command.lateral_mps);
+  if (command.camera_head == CameraHeadCommand{}) return out.clear_camera_head();
+  const auto& [aim, pan_radps, tilt_radps] = command.camera_head;
+  v1::CameraHead& head = *out.mutable_camera_head();
+  head.set_pan_rad(aim.pan_rad);
+  head.set_tilt_rad(aim.tilt_rad);
+  head.set_zoom(aim.zoom);
+  head.set_pan_radps(pan_radps);
+  head.set_tilt_radps(tilt_radps);
 }
 
 Command decode(const v1::Command& in, std::uint32_t robot) {
   checkFinite(in.speed_mps(), "speed_mps", robot);
   checkFinite(in.turn_radps(), "turn_radps", robot);
   checkFinite(in.laser_pan_rad(), "laser_pan_rad", robot);
+  checkFinite(in.lateral_mps(), "lateral_mps", robot);
   const auto activity =
       in.activity() == v1::ACTIVITY_UNSPECIFIED ? std::optional(Activity::active) : decode(in.activity());
   if (!activity || activity == Activity::absent) {
     throw WireError("the command for robot " + std::to_string(robot) + " has the activity " +
                     std::to_string(in.activity()) + "; there are 1 (active), 2 (halted) and 3 (found)");
   }
-  return {in.speed_mps(), in.turn_radps(),     in.laser_pan_rad(), *activity,
-          in.by_driver(), in.emergency_stop(), in.grip()};
+  return {in.speed_mps(),     in.turn_radps(),
+          in.laser_pan_rad(), *activity,
+          in.by_driver(),     in.emergency_stop(),
+          in.grip(),          in.led_color() & kLedColorMax,
+          in.lateral_mps(),   in.has_camera_head() ? decode(in.camera_head(), robot) : CameraHeadCommand{}};
 }
 
 void decode(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out) {
@@ -188,12 +228,16 @@ void encode(const Measurement& measurement, v1::Measurement& out) {
   std::visit(
       [&]<typename M>(const M& kind) {
         if constexpr (kIsFile<M>) {
-          out.set_jpeg(Description<M>::file(kind));
+          (kind.raw ? out.mutable_raw_picture() : out.mutable_jpeg())->assign(Description<M>::file(kind));
         } else if (isPresent(kind)) {
           auto* next = numbersOf<M>(out, numberCount(kind));
           forNumbers(kind, [&](const auto&, auto number, std::size_t) {
             *next++ = static_cast<std::remove_reference_t<decltype(*next)>>(number);
           });
+          // Odometry without a lateral speed, as that of most drives, is sent as it was before there were others.
+          if constexpr (std::is_same_v<M, Odometry>) {
+            if (kind.lateral_mps == 0) out.mutable_doubles()->Truncate(static_cast<int>(kFieldCount<M> - 1));
+          }
         }
       },
       measurement);
@@ -203,8 +247,11 @@ void decode(const v1::Measurement& in, Measurement& out) {
   std::visit(
       [&]<typename M>(M& kind) {
         if constexpr (kIsFile<M>) {
-          if (const auto fault = Description<M>::fileFaultOf(in.jpeg()); !fault.empty()) throw WireError(fault);
-          Description<M>::file(kind) = in.jpeg();
+          try {
+            Description<M>::setFile(kind, in.raw_picture().empty() ? in.jpeg() : in.raw_picture());
+          } catch (const std::invalid_argument& fault) {
+            throw WireError(fault.what());
+          }
         } else {
           decodeNumbers(in, kind);
         }
@@ -250,6 +297,10 @@ void decode(const v1::RobotReadings& in, const std::string& to, Readings& out) {
   out.is_too_far = in.is_too_far();
   out.inbox.clear();
   for (const auto& message : in.inbox()) out.inbox.push_back({message.from(), to, message.text()});
+}
+
+void checkPictures(const Readings& readings, const std::vector<SensorInfo>& sensors) {
+  if (const char* fault = pictureFaultOf(readings.measurements, sensors)) throw WireError(fault);
 }
 
 Readings blankReadings(const std::vector<SensorInfo>& sensors) {

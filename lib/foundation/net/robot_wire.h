@@ -74,6 +74,10 @@ void encodeInbox(const std::vector<RobotMessage>& messages, v1::RobotReadings& o
 /// @param to the robot's name, for its inbox
 /// @param out holds measurements of the expected kinds and sizes, blankReadings(), and the step of the message
 void decode(const v1::RobotReadings& in, const std::string& to, Readings& out);
+/// Checks the pictures that a controller's process decoded. Those for remote controls and viewers are always JPEG
+/// files.
+/// @throws WireError for one that its camera cannot have taken (pictureFaultOf())
+void checkPictures(const Readings& readings, const std::vector<SensorInfo>& sensors);
 
 /// Readings before the first step, with a measurement of the correct kind and size for each sensor.
 Readings blankReadings(const std::vector<SensorInfo>& sensors);

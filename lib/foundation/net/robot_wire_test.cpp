@@ -16,7 +16,7 @@ std::vector<SensorInfo> everySensor() {
   std::vector<SensorInfo> sensors;
   for (const auto kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared, SensorKind::heat,
                           SensorKind::bumper, SensorKind::odometry, SensorKind::compass, SensorKind::camera,
-                          SensorKind::blob_finder, SensorKind::values, SensorKind::beacons}) {
+                          SensorKind::blob_finder, SensorKind::values, SensorKind::beacons, SensorKind::lidar}) {
     SensorInfo sensor;
     sensor.kind = kind;
     sensor.label = nameOf(kind);
@@ -31,7 +31,10 @@ std::vector<SensorInfo> everySensor() {
       sensor.camera = {320, 240, 1.25, 10};
       sensor.camera.distortion = {-0.2, 0.05, 0.001, 0.002, 0.01};
     }
-    if (kind == SensorKind::values) sensor.quantities = {{"co2", "ppm"}, {"humidity", "%"}};
+    if (kind == SensorKind::values) {
+      sensor.quantities = {{"co2", "ppm"}, {"humidity", "%"}};
+      sensor.head = {-1, 2, -0.5, 1.5, 16, 1.25, 0.75, 5};
+    }
     if (kind == SensorKind::blob_finder) sensor.colors = {"gold", "red"};
     sensors.push_back(sensor);
   }
@@ -76,6 +79,21 @@ TEST(RobotWire, RoundTripsReadingsExactly) {
   EXPECT_EQ(decoded.laser_pan_rad, sent.laser_pan_rad);
   EXPECT_EQ(decoded.inbox, sent.inbox);
   EXPECT_EQ(decoded.is_too_far, sent.is_too_far);
+}
+
+TEST(RobotWire, RoundTripsExactPictures) {
+  Readings sent = someReadings();
+  const RawPicture raw{2, 1, 4, {1, 2, 3, 4, 5, 6}, {1.5f, 0}, {7, RawPicture::kSky}};
+  sent.measurements[7] = Image{"", std::make_shared<const RawPicture>(raw)};
+  v1::RobotReadings wire;
+  encode(sent, wire);
+  EXPECT_TRUE(wire.measurements(7).jpeg().empty());
+  Readings decoded = blankReadings(everySensor());
+  decode(wire, "Pioneer1", decoded);
+  EXPECT_EQ(decoded.measurements, sent.measurements);
+  EXPECT_EQ(wireErrorOf([&] { checkPictures(decoded, everySensor()); }), "a picture of another model of camera");
+  wire.mutable_measurements(7)->mutable_raw_picture()->pop_back();
+  EXPECT_EQ(wireErrorOf([&] { decode(wire, "Pioneer1", decoded); }), "a picture of an impossible size");
 }
 
 TEST(RobotWire, RoundTripsAStepWithoutAnImage) {
@@ -136,7 +154,7 @@ TEST(RobotWire, RejectsReadingsOfWrongSizeOrWithNan) {
   };
   EXPECT_EQ(error_after([](auto&) {}), "");
   EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements()->RemoveLast(); }),
-            "readings of 10 sensors for a robot that has 11");
+            "readings of 11 sensors for a robot that has 12");
   EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(0)->add_floats(1); }),
             "a reading of 9 numbers where 8 belong");
   EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(0)->set_floats(7, std::nanf("")); }),
@@ -196,6 +214,8 @@ RobotsWelcome someWelcome() {
     RobotInfo info{name,   "pioneer3dx", "Scout1",
                    0.25,   0.3,          {.speed_max_mps = 1, .turn_max_radps = 2, .emergency_decel_mps2 = 3},
                    sensors};
+    info.limits.lateral_max_mps = 0.5;
+    info.drive = {DriveKind::tracked, 0.25, 0.5, 0.125, 1.5, 1.25, -0.1};
     welcome.robots.push_back({info, 3, "wander", 41, mrpt::math::TPose2D(1, 2, 0.5)});
   }
   welcome.all_robots = {"Pioneer1", "Pioneer2", "Scout1"};
@@ -211,6 +231,8 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   EXPECT_EQ(decoded.robots[1].info.name, "Pioneer2");
   EXPECT_EQ(decoded.robots[1].info.limits.turn_max_radps, 2);
   EXPECT_EQ(decoded.robots[1].info.limits.emergency_decel_mps2, 3);
+  EXPECT_EQ(decoded.robots[1].info.limits.lateral_max_mps, 0.5);
+  EXPECT_EQ(decoded.robots[1].info.drive, (Drive{DriveKind::tracked, 0.25, 0.5, 0.125, 1.5, 1.25, -0.1}));
   EXPECT_EQ(decoded.robots[1].controller, "wander");
   EXPECT_EQ(decoded.robots[1].next_answer, 41u);
   EXPECT_EQ(decoded.robots[1].world_from_start, mrpt::math::TPose2D(1, 2, 0.5));
@@ -221,6 +243,7 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   EXPECT_EQ((*decoded.robots[0].info.sensors)[8].colors, (std::vector<std::string>{"gold", "red"}));
   EXPECT_EQ((*decoded.robots[0].info.sensors)[9].quantities,
             (std::vector<Quantity>{{"co2", "ppm"}, {"humidity", "%"}}));
+  EXPECT_EQ((*decoded.robots[0].info.sensors)[9].head, everySensor()[9].head);
   EXPECT_EQ((*decoded.robots[0].info.sensors)[1].times, (MeasurementTimes{5, 0.05}));
   EXPECT_EQ((*decoded.robots[0].info.sensors)[9].bearing_std_rad, 0.25);
   EXPECT_EQ(decoded.all_robots, someWelcome().all_robots);
@@ -241,7 +264,7 @@ TEST(RobotWire, DescribesTheNumbersOfEachSensor) {
   };
   EXPECT_EQ(text_of(sensors[0]), "beam: range/m x/m y/m z/m");
   EXPECT_EQ(text_of(sensors[4]), "segment: pressed");
-  EXPECT_EQ(text_of(sensors[5]), ": x/m y/m heading/rad speed/m/s turn/rad/s");
+  EXPECT_EQ(text_of(sensors[5]), ": x/m y/m heading/rad speed/m/s turn/rad/s lateral/m/s");
   EXPECT_EQ(text_of(sensors[7]), ":") << "a camera has no numbers";
 }
 
@@ -287,6 +310,9 @@ TEST(RobotWire, RejectsInvalidWelcomes) {
   const auto camera_after = [&](const std::function<void(v1::CameraDescription&)>& modify) {
     return error_after([&](auto& bad) { modify(*bad.mutable_sensor_sets(0)->mutable_sensors(7)->mutable_camera()); });
   };
+  EXPECT_EQ(
+      error_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(9)->mutable_head()->set_zoom_max(0); }),
+      "a camera's head with impossible limits");
   const std::string invalid_camera = "a camera with invalid parameters";
   EXPECT_EQ(camera_after([](auto& camera) { camera.Clear(); }), invalid_camera);
   EXPECT_EQ(camera_after([](auto& camera) { camera.add_distortion(0); }),

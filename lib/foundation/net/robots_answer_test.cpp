@@ -93,7 +93,26 @@ TEST(RobotsAnswer, RejectsNonFiniteSpeeds) {
     message.mutable_commands(0)->mutable_command()->set_turn_radps(0);
     message.mutable_commands(0)->mutable_command()->set_laser_pan_rad(static_cast<float>(bad));
     EXPECT_NE(errorFor(message).find("has a laser_pan_rad of "), std::string::npos);
+    message.mutable_commands(0)->mutable_command()->set_laser_pan_rad(0);
+    message.mutable_commands(0)->mutable_command()->mutable_camera_head()->set_tilt_rad(bad);
+    EXPECT_NE(errorFor(message).find("has a camera_head.tilt_rad of "), std::string::npos);
   }
+}
+
+TEST(RobotsAnswer, KeepsTheCommandOfACamerasHead) {
+  v1::StepAnswer message;
+  v1::Command& wire = *message.add_commands()->mutable_command();
+  RobotsAnswer answer;
+  for (const CameraHeadCommand& head : {CameraHeadCommand{{0.5, -0.25, 4}, 1.5, 0.75}, CameraHeadCommand{}}) {
+    const Command command{.speed_mps = 1, .camera_head = head};
+    encode(command, wire);
+    decode(message, 1, answer);
+    ASSERT_EQ(answer.orders.size(), 1u);
+    EXPECT_EQ(answer.orders[0].command, command);
+  }
+  wire.mutable_camera_head()->set_pan_rad(1);
+  decode(message, 1, answer);
+  EXPECT_EQ(answer.orders[0].command.camera_head, (CameraHeadCommand{{1, 0, 1}})) << "no zoom is 1";
 }
 
 TEST(RobotsAnswer, RejectsUnknownActivitiesInvalidRobotsAndLongMessages) {

@@ -41,6 +41,30 @@ Beam decode(const v1::Beam& in) {
   return {{in.x_m(), in.y_m(), in.z_m(), in.yaw_rad(), in.pitch_rad(), in.roll_rad()}};
 }
 
+void encode(const CameraHeadLimits& head, v1::CameraHeadLimits& out) {
+  out.set_pan_min_rad(head.pan_min_rad);
+  out.set_pan_max_rad(head.pan_max_rad);
+  out.set_tilt_min_rad(head.tilt_min_rad);
+  out.set_tilt_max_rad(head.tilt_max_rad);
+  out.set_zoom_max(head.zoom_max);
+  out.set_pan_radps(head.pan_radps);
+  out.set_tilt_radps(head.tilt_radps);
+  out.set_zoom_per_s(head.zoom_per_s);
+}
+
+CameraHeadLimits decode(const v1::CameraHeadLimits& in) {
+  checkFinite({in.pan_min_rad(), in.pan_max_rad(), in.tilt_min_rad(), in.tilt_max_rad(), in.zoom_max(), in.pan_radps(),
+               in.tilt_radps(), in.zoom_per_s()});
+  const bool has_straight_ahead =
+      in.pan_min_rad() <= 0 && in.pan_max_rad() >= 0 && in.tilt_min_rad() <= 0 && in.tilt_max_rad() >= 0;
+  const bool has_speeds = in.pan_radps() >= 0 && in.tilt_radps() >= 0 && in.zoom_per_s() >= 0;
+  if (!has_straight_ahead || !has_speeds || in.zoom_max() < 1 || in.zoom_max() > 100) {
+    throw WireError("a camera's head with impossible limits");
+  }
+  return {in.pan_min_rad(), in.pan_max_rad(), in.tilt_min_rad(), in.tilt_max_rad(),
+          in.zoom_max(),    in.pan_radps(),   in.tilt_radps(),   in.zoom_per_s()};
+}
+
 void encode(const SensorInfo& sensor, v1::SensorDescription& out) {
   out.set_kind(nameOf(sensor.kind));
   out.set_label(sensor.label);
@@ -64,7 +88,11 @@ void encode(const SensorInfo& sensor, v1::SensorDescription& out) {
     if (!sensor.camera.distortion.isNone()) {
       for (const double coefficient : sensor.camera.distortion.coefficients()) camera.add_distortion(coefficient);
     }
+    camera.set_rgb(sensor.camera.layers.rgb);
+    camera.set_depth(sensor.camera.layers.depth);
+    camera.set_identity(sensor.camera.layers.identity);
   }
+  if (sensor.head != CameraHeadLimits{}) encode(sensor.head, *out.mutable_head());
   for (const auto& color : sensor.colors) out.add_colors(color);
   for (const auto& quantity : sensor.quantities) {
     auto& added = *out.add_quantities();
@@ -81,6 +109,7 @@ CameraInfo decode(const v1::CameraDescription& in) {
   }
   checkFinite({in.rate_hz()});
   CameraInfo camera{in.width_px(), in.height_px(), in.field_of_view_rad(), in.rate_hz()};
+  camera.layers = {in.rgb(), in.depth(), in.identity()};
   if (in.distortion_size() == 0) return camera;
   if (in.distortion_size() != 5) throw WireError("a camera whose lens has no five coefficients");
   for (const double coefficient : in.distortion()) checkFinite({coefficient});
@@ -107,9 +136,36 @@ SensorInfo decode(const v1::SensorDescription& in) {
   const bool has_camera = sensor.kind == SensorKind::camera || sensor.kind == SensorKind::blob_finder;
   if (has_camera && sensor.beams.size() != 1) throw WireError("a camera has one place on the robot");
   if (has_camera) sensor.camera = decode(in.camera());
+  if (in.has_head()) sensor.head = decode(in.head());
   sensor.colors.assign(in.colors().begin(), in.colors().end());
   for (const auto& quantity : in.quantities()) sensor.quantities.push_back({quantity.name(), quantity.unit()});
   return sensor;
+}
+
+void encode(const Drive& drive, v1::Drive& out) {
+  out.set_kind(static_cast<v1::DriveKind>(static_cast<int>(drive.kind) + v1::DRIVE_KIND_DIFFERENTIAL));
+  out.set_wheelbase_m(drive.wheelbase_m);
+  out.set_steering_max_rad(drive.steering_max_rad);
+  out.set_steering_rate_radps(drive.steering_rate_radps);
+  out.set_track_factor(drive.track_factor);
+  out.set_icr_x_m(drive.icr_x_m);
+  out.set_assumed_factor(drive.assumed_factor);
+}
+
+/// A kind that this version does not know is a differential drive to it.
+Drive decode(const v1::Drive& in) {
+  Drive drive;
+  if (in.kind() <= v1::DRIVE_KIND_DIFFERENTIAL || in.kind() > v1::DRIVE_KIND_TRACKED) return drive;
+  checkFinite({in.wheelbase_m(), in.steering_max_rad(), in.steering_rate_radps(), in.track_factor(), in.icr_x_m(),
+               in.assumed_factor()});
+  drive.kind = static_cast<DriveKind>(in.kind() - v1::DRIVE_KIND_DIFFERENTIAL);
+  drive.wheelbase_m = in.wheelbase_m();
+  drive.steering_max_rad = in.steering_max_rad();
+  drive.steering_rate_radps = in.steering_rate_radps();
+  drive.track_factor = in.track_factor();
+  drive.icr_x_m = in.icr_x_m();
+  drive.assumed_factor = in.assumed_factor();
+  return drive;
 }
 
 void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, v1::RobotDescription& out) {
@@ -125,6 +181,8 @@ void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, v1::Rob
   out.set_decel_mps2(info.limits.decel_mps2);
   out.set_turn_accel_radps2(info.limits.turn_accel_radps2);
   out.set_emergency_decel_mps2(info.limits.emergency_decel_mps2);
+  if (info.drive != Drive()) encode(info.drive, *out.mutable_drive());
+  out.set_lateral_max_mps(info.limits.lateral_max_mps);
   out.set_sensor_set(sensor_set);
   out.set_world_robot(robot.world_robot);
   out.set_controller(robot.controller);
@@ -146,20 +204,21 @@ RobotsWelcome::Robot decode(const v1::RobotDescription& in, const SensorSets& se
                             .accel_mps2 = in.accel_mps2(),
                             .decel_mps2 = in.decel_mps2(),
                             .turn_accel_radps2 = in.turn_accel_radps2(),
-                            .emergency_decel_mps2 = in.emergency_decel_mps2()};
+                            .emergency_decel_mps2 = in.emergency_decel_mps2(),
+                            .lateral_max_mps = in.lateral_max_mps()};
   checkFinite({in.radius_m(), in.height_m(), limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
-               limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2});
+               limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2, limits.lateral_max_mps});
   std::optional<std::uint32_t> color_rgb;
   if (in.has_color_rgb()) color_rgb = in.color_rgb() & 0xffffff;
   checkFinite({in.start().x_m(), in.start().y_m(), in.start().heading_rad()});
   std::optional<mrpt::math::TPose2D> world_from_start;
   if (in.has_start()) world_from_start.emplace(in.start().x_m(), in.start().y_m(), in.start().heading_rad());
-  return {
-      {in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()], color_rgb},
-      in.world_robot(),
-      in.controller(),
-      in.next_answer(),
-      world_from_start};
+  return {{in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()],
+           color_rgb, decode(in.drive())},
+          in.world_robot(),
+          in.controller(),
+          in.next_answer(),
+          world_from_start};
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservationBearingRange.h>
 
-#include "hardware/neighbour_quantities.h"
+#include "hardware/numbered_quantities.h"
 #include "recording/codecs.h"
 
 namespace robosim {

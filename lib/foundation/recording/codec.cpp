@@ -10,16 +10,21 @@ std::vector<const Codec*> codecs() {
   std::vector<const Codec*> all = addedCodecs();
   all.insert(all.end(), {
                             &scanCodec(),          // CObservation2DRangeScan: lasers with evenly spaced beams
+                            &lidarCodec(),         // CObservation3DRangeScan
                             &rangeCodec(),         // CObservationRange: all other sensors that measure echoes
                             &heatCodec(),          // CObservationGasSensors
                             &compassCodec(),       // CObservationIMU
                             &batteryCodec(),       // CObservationBatteryState
                             &bumperCodec(),        // CObservationRawDAQ
                             &odometryCodec(),      // CObservationOdometry
-                            &imageCodec(),         // CObservationImage
+                            &raycastImageCodec(),  // CObservationImage: ray-cast cameras of colours only
+                            &raycastDepthCodec(),  // CObservation3DRangeScan: other ray-cast cameras
+                            &imageCodec(),         // CObservationImage: all other cameras
                             &blobCodec(),          // CObservationRawDAQ
                             &beaconCodec(),        // CObservationBeaconRanges
                             &bearingRangeCodec(),  // CObservationBearingRange: range_and_bearing
+                            &gnssCodec(),          // CObservationGPS
+                            &inertialCodec(),      // CObservationIMU: imu
                             &valuesCodec(),        // CObservationRawDAQ: all other values
                         });
   return all;

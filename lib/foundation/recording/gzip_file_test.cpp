@@ -125,6 +125,7 @@ TEST_F(GzipFileTest, FailsOnAFullDiskWhileWriting) {
   const FileSizeLimit full(100'000);
   try {
     file.write(noise(1'000'000));
+    file.endMember();
     FAIL() << "a file of 1 MB on a disk of 100 kB";
   } catch (const RecordingError& error) {
     EXPECT_EQ(error.what(),

@@ -1,12 +1,14 @@
 #include <cmath>
 
 #include "recording/codecs.h"
+#include "recording/exact_observations.h"
 #include "recording/jpeg_observation.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::obs::CObservation;
+using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationImage;
 using mrpt::poses::CPose3D;
 
@@ -31,18 +33,7 @@ class ImageCodec : public CodecOf<JpegObservation, Image> {
   }
 
  private:
-  void init(JpegObservation& picture, const SensorInfo& sensor) const override {
-    picture.cameraPose = CPose3D(mountOf(sensor)) + beamFromCamera();
-    const CameraInfo& camera = sensor.camera;
-    const double focal_px = camera.focalLength();
-    picture.cameraParams.ncols = camera.width_px;
-    picture.cameraParams.nrows = camera.height_px;
-    picture.cameraParams.setIntrinsicParamsFromValues(focal_px, focal_px, camera.width_px / 2.0,
-                                                      camera.height_px / 2.0);
-    if (camera.distortion.isNone()) return;
-    picture.cameraParams.setDistortionPlumbBob(camera.distortion.k1, camera.distortion.k2, camera.distortion.p1,
-                                               camera.distortion.p2, camera.distortion.k3);
-  }
+  void init(JpegObservation& picture, const SensorInfo& sensor) const override { setCamera(picture, sensor); }
 
   void set(JpegObservation& picture, const SensorInfo&, const Image& image, float) const override {
     picture.jpeg = image.jpeg;
@@ -51,7 +42,31 @@ class ImageCodec : public CodecOf<JpegObservation, Image> {
   Image get(const JpegObservation& picture, const SensorInfo&, float) const override { return {picture.jpeg}; }
 };
 
+mrpt::img::TCamera parametersOf(const CameraInfo& camera) {
+  mrpt::img::TCamera parameters;
+  const double focal_px = camera.focalLength();
+  parameters.ncols = camera.width_px;
+  parameters.nrows = camera.height_px;
+  parameters.setIntrinsicParamsFromValues(focal_px, focal_px, camera.width_px / 2.0, camera.height_px / 2.0);
+  if (camera.isRaycast()) parameters.cameraName = kExactCameraName;
+  const LensDistortion& lens = camera.distortion;
+  if (!lens.isNone()) parameters.setDistortionPlumbBob(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3);
+  return parameters;
+}
+
 }  // namespace
+
+void setCamera(CObservation& picture, const SensorInfo& sensor) {
+  const CPose3D pose(mountOf(sensor));
+  if (auto* const image = dynamic_cast<CObservationImage*>(&picture)) {
+    image->cameraPose = pose + beamFromCamera();
+    image->cameraParams = parametersOf(sensor.camera);
+    return;
+  }
+  auto& scan = dynamic_cast<CObservation3DRangeScan&>(picture);
+  scan.sensorPose = pose;
+  scan.cameraParams = scan.cameraParamsIntensity = parametersOf(sensor.camera);
+}
 
 const Codec& imageCodec() { return theCodec<ImageCodec>(); }
 

@@ -10,6 +10,7 @@
 
 #include "base/jpeg_file.h"
 #include "recording/byte_archive.h"
+#include "recording/picture_compression.h"
 #include "recording/recording_error.h"
 
 namespace robosim {
@@ -23,7 +24,6 @@ struct Placeholder {
   std::vector<std::uint8_t> jpeg;
 
   Placeholder() {
-    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);  // by default, MRPT does not compress images
     picture.filledRectangle(0, 0, 7, 7, mrpt::img::TColor(10, 120, 240));
     mrpt::io::CMemoryStream stream;
     picture.saveToStreamAsJPEG(stream, mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY());
@@ -42,6 +42,7 @@ class SerializableImage : public mrpt::obs::CObservationImage {
  public:
   explicit SerializableImage(const mrpt::obs::CObservationImage& observation) : CObservationImage(observation) {}
   std::vector<std::uint8_t> bytes() const {
+    const PictureCompression on(true);
     ByteArchive archive;
     serializeTo(archive);
     return std::move(archive.bytes);

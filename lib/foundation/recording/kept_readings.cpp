@@ -4,15 +4,16 @@
 
 namespace robosim {
 
-KeptReadings::KeptReadings(std::shared_ptr<const std::vector<SensorInfo>> sensors) : sensors_(std::move(sensors)) {
+KeptReadings::KeptReadings(std::shared_ptr<const std::vector<SensorInfo>> sensors, bool by_equality)
+    : sensors_(std::move(sensors)), by_equality_(by_equality) {
   forget();
 }
 
 bool KeptReadings::isKept(std::size_t sensor, const Readings& readings) {
   const MeasurementTimes& times = (*sensors_)[sensor].times;
-  if (times.rate_hz == 0) return false;
+  if (times.rate_hz == 0 && !by_equality_) return false;
   const Measurement& measurement = readings.measurements[sensor];
-  if (!times.isDue(readings.time) && measurement == last_[sensor]) return true;
+  if ((by_equality_ || !times.isDue(readings.time)) && measurement == last_[sensor]) return true;
   last_[sensor] = measurement;
   return false;
 }

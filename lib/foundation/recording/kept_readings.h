@@ -12,7 +12,9 @@ namespace robosim {
 /// that differs from the one before, which is that of blankMeasurement() at first, is not kept.
 class KeptReadings {
  public:
-  explicit KeptReadings(std::shared_ptr<const std::vector<SensorInfo>> sensors);
+  /// @param by_equality whether a reading is kept if it is that of the step before: of a recording of another program,
+  ///        in which no rates are known
+  explicit KeptReadings(std::shared_ptr<const std::vector<SensorInfo>> sensors, bool by_equality = false);
 
   /// Of the next step.
   bool isKept(std::size_t sensor, const Readings& readings);
@@ -21,6 +23,7 @@ class KeptReadings {
 
  private:
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
+  bool by_equality_;
   std::vector<Measurement> last_;  ///< by sensor: the last one that was not kept, if it has a rate
 };
 

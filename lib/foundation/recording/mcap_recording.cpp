@@ -1,7 +1,6 @@
 #include "recording/mcap_recording.h"
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 #include <utility>
 
@@ -30,16 +29,11 @@ class McapRecording::ChannelSink final : public TopicSink {
   std::uint64_t time_ns_;
 };
 
-bool isMcapName(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".mcap";
-}
-
 McapRecording::McapRecording(const std::filesystem::path& file, std::span<const RobotInfo> robots,
-                             std::uint64_t start_ns)
-    : file_(file), writer_([this](std::span<const std::uint8_t> bytes) { file_.write(bytes); }, {"ros2", "robosim"}) {
+                             std::uint64_t start_ns, RosDistribution distribution)
+    : distribution_(distribution),
+      file_(file),
+      writer_([this](std::span<const std::uint8_t> bytes) { file_.write(bytes); }, {"ros2", "robosim"}) {
   // rosbag2 reads the numbers of offeredQos() only in files with this record, whose content may be empty.
   writer_.addMetadata({"rosbag2", {{"serialized_metadata", ""}}});
   rawlog_ = channelOf({kRawlogTopic, &ros::typeOf<ros::UInt8MultiArray>(), TopicDelivery::steady});
@@ -55,7 +49,7 @@ McapRecording::McapRecording(const std::filesystem::path& file, std::span<const 
 }
 
 void McapRecording::addTopics(const RobotInfo& robot) {
-  const RobotTopics& topics = topics_.emplace_back(robot);
+  const RobotTopics& topics = topics_.emplace_back(robot, TopicForm{.distribution = distribution_});
   auto& channels = channels_of_robot_.emplace_back();
   markers_.add(robot);
   poses_.resize(markers_.size());
@@ -112,13 +106,12 @@ void McapRecording::endStep(std::uint64_t time_ns) {
   writer_.endMessage();
 }
 
-void McapRecording::write(std::size_t robot, const Readings& readings,
-                          const std::optional<mrpt::math::TPose2D>& world_from_robot,
+void McapRecording::write(std::size_t robot, const Readings& readings, const std::optional<RobotTruth>& truth,
                           const std::optional<Command>& command, std::span<const std::uint8_t> kept) {
   ChannelSink sink(writer_, channels_of_robot_[robot], nanosecondsOf(readings.time.seconds()));
-  poses_[robot] = world_from_robot;
-  has_poses_ |= world_from_robot.has_value();
-  topics_[robot].write(readings, world_from_robot, command, kept, sink);
+  poses_[robot] = truth ? std::optional(truth->world_from_robot) : std::nullopt;
+  has_poses_ |= truth.has_value();
+  topics_[robot].write(readings, truth, command, kept, sink);
 }
 
 void McapRecording::write(const TopicMessage& message) {

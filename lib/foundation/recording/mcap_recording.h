@@ -19,9 +19,6 @@
 
 namespace robosim {
 
-/// Whether a recording of this name is an MCAP file: one that ends in ".mcap".
-bool isMcapName(const std::filesystem::path& file);
-
 /// Topic with the content of a rawlog, as the data of std_msgs/msg/UInt8MultiArray (kRawlogDataOffset): one message for
 /// each step, and one for each group of comments. Their data in a row are the bytes of the rawlog, not compressed
 /// (doc/decisions/mcap.md).
@@ -33,14 +30,15 @@ inline constexpr std::size_t kRawlogDataOffset = 16;
 class McapRecording {
  public:
   /// @throws ConfigError when the file cannot be created, or for more robots than an MCAP file has channels
-  McapRecording(const std::filesystem::path& file, std::span<const RobotInfo> robots, std::uint64_t start_ns);
+  McapRecording(const std::filesystem::path& file, std::span<const RobotInfo> robots, std::uint64_t start_ns,
+                RosDistribution distribution = RosDistribution::jazzy);
 
   /// Adds a robot, with the next index, from this time on. @throws RecordingError also when channels are exhausted
   void addRobot(const RobotInfo& robot, std::uint64_t time_ns);
   /// Bytes of the rawlog. @throws RecordingError as RecordingFile::write() does, as all that follow
   void writeRawlog(std::span<const std::uint8_t> bytes, std::uint64_t time_ns);
   /// Messages of a robot in a step, by its index.
-  void write(std::size_t robot, const Readings& readings, const std::optional<mrpt::math::TPose2D>& world_from_robot,
+  void write(std::size_t robot, const Readings& readings, const std::optional<RobotTruth>& truth,
              const std::optional<Command>& command, std::span<const std::uint8_t> kept);
   /// Completes a step: the robots' markers, if their poses are known, and the clock.
   void endStep(std::uint64_t time_ns);
@@ -62,6 +60,7 @@ class McapRecording {
   void addTopics(const RobotInfo& robot);
   void writeMounts(std::uint64_t time_ns);  ///< of all robots
 
+  RosDistribution distribution_;
   RecordingFile file_;
   mcap::Writer writer_;
   std::map<std::string, std::uint16_t> schemas_;   ///< by type

@@ -1,8 +1,10 @@
 #include "recording/measurements.h"
 
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationGasSensors.h>
@@ -11,8 +13,11 @@
 #include <mrpt/obs/CObservationRawDAQ.h>
 
 #include "base/angle_units.h"
+#include "base/random.h"
 #include "base/testing/test_folder.h"
+#include "hardware/lidar_range.h"
 #include "recording/byte_archive.h"
+#include "recording/codecs.h"
 #include "recording/jpeg_observation.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
@@ -132,6 +137,47 @@ TEST(Measurements, ComputePointsOfInclinedBeams) {
   const auto echo = std::get<Echoes>(thereAndBack(infrared, Echoes{{1, {}}}))[0];
   EXPECT_NEAR(echo.point_m.x, std::cos(M_PI / 6), 1e-6);
   EXPECT_NEAR(echo.point_m.z, 0.5, 1e-6);
+}
+
+/// Three layers of 40 beams, 0.7 m ahead of the robot's centre.
+SensorInfo sampleLidar() {
+  std::vector<Beam> beams;
+  for (const double pitch : {0.3, 0.0, -0.5}) {
+    for (int i = 0; i < 40; ++i) beams.push_back({{0.7, -0.1, 0.4, i * 0.15 - 3, pitch, 0}});
+  }
+  return rangeSensor(SensorKind::lidar, "lidar", beams, 100, 100);
+}
+
+TEST(Measurements, RoundTripALidarByThePointsOfItsEchoes) {
+  const SensorInfo lidar = sampleLidar();
+  Rng rng(1);
+  for (int scan = 0; scan < 100; ++scan) {
+    Echoes echoes;
+    for (std::size_t i = 0; i < lidar.beams.size(); ++i) {
+      const bool has_echo = rng.below(5) > 0;
+      const float range_m = has_echo ? roundedLidarRange(std::pow(10, rng.uniform(-2, 1.99))) : 100;
+      echoes.push_back({range_m, pointAlong(originOf(lidar.beams[i]), directionOf(lidar.beams[i]), range_m)});
+    }
+    ASSERT_EQ(std::get<Echoes>(thereAndBack(lidar, echoes)), echoes) << scan;
+  }
+}
+
+TEST(Measurements, RecordALidarAsACloudInTheFrameOfItsBeams) {
+  const SensorInfo lidar = sampleLidar();
+  Echoes echoes(lidar.beams.size(), Echo{100, {}});
+  echoes[40 + 20].range_m = 2;  // level, straight ahead
+  const Codec& codec = findCodec(lidar);
+  const auto observation = codec.make(lidar);
+  codec.fill(*observation, lidar, echoes, 0);
+  const auto& scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*observation);
+  ASSERT_EQ(scan.points3D_x, std::vector<float>{2});
+  EXPECT_EQ(scan.points3D_z, std::vector<float>{0});
+  EXPECT_EQ(scan.points3D_idxs_x, std::vector<std::uint16_t>{20});
+  EXPECT_EQ(scan.points3D_idxs_y, std::vector<std::uint16_t>{1});
+  EXPECT_EQ(scan.sensorPose.x(), 0.7);
+  auto damaged = scan;
+  damaged.points3D_idxs_y[0] = 3;
+  EXPECT_THROW(codec.measurementFrom(damaged, lidar, 0, {}), RecordingError);
 }
 
 TEST(Measurements, RoundTripBeaconsOfWhichOneIsNotReceived) {

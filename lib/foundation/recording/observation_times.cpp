@@ -31,7 +31,7 @@ bool hasLostItsTimes(const std::filesystem::path& rawlog) {
   constexpr std::uint64_t kExaminedEntries = 200;
   std::map<std::pair<std::string, std::string>, StampedSource> sources;
   RawlogReader reader(rawlog);
-  if (reader.isOfRos()) return false;
+  if (reader.isForeign()) return false;
   while (const auto observation = reader.next()) {
     if (reader.entries() > kExaminedEntries) break;
     if (observation->timestamp == INVALID_TIMESTAMP) continue;

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 
+#include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation.h>
 
 #include "recording/byte_archive.h"
@@ -9,7 +10,8 @@
 namespace robosim {
 
 /// Writes observations that were read from a rawlog to a new one, without changes, except that images are embedded as
-/// JPEG: an external file unchanged, an embedded image compressed again. The file appears when it is complete.
+/// JPEG: an external file unchanged, an embedded image compressed again. The file appears when it is complete. Its
+/// index has only members: a view reads it as a whole.
 class ObservationWriter {
  public:
   /// @param pictures the folder of external images of the rawlog that the observations come from
@@ -24,6 +26,7 @@ class ObservationWriter {
  private:
   void flush();
 
+  mrpt::Clock::time_point last_time_;  ///< timestamp of the last observation
   std::filesystem::path pictures_;
   ByteArchive buffer_;
   GzipFile file_;

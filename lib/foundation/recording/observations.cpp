@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include "base/random.h"
+#include "hardware/camera_head.h"
 #include "hardware/measurement_fields.h"
 #include "recording/codecs.h"
 #include "recording/jpeg_observation.h"
@@ -62,8 +63,8 @@ RobotObservations::RobotObservations(const RobotInfo& robot, PictureFolder* pict
     observations_.push_back(codecs_.back()->make((*sensors_)[slot]));
     const std::string label = Label{robot.name, (*sensors_)[slot].label, ""}.text();
     observations_.back()->sensorLabel = label;
-    const bool is_camera = (*sensors_)[slot].kind == SensorKind::camera;
-    stems_.push_back(is_camera && pictures_ ? pictures_->stemFor(label) : "");
+    const bool has_files = (*sensors_)[slot].kind == SensorKind::camera && !(*sensors_)[slot].camera.isRaycast();
+    stems_.push_back(has_files && pictures_ ? pictures_->stemFor(label) : "");
   }
   forget();
   makeTemplates();
@@ -92,6 +93,10 @@ std::span<const CObservation::Ptr> RobotObservations::of(const Readings& reading
     if (kept_[slots_[i]]) continue;
     observation.timestamp = timestamp;
     codecs_[i]->fill(observation, (*sensors_)[slots_[i]], measurement, readings.laser_pan_rad);
+    if (const auto aim = aimOf((*sensors_)[slots_[i]], *sensors_, readings.measurements);
+        aim && (*sensors_)[slots_[i]].kind == SensorKind::camera) {
+      setCamera(observation, aimed((*sensors_)[slots_[i]], *aim));
+    }
     if (!stems_[1 + i].empty())
       saveExternally(static_cast<JpegObservation&>(observation), stems_[1 + i], readings.time);
     present_.push_back(1 + i);

@@ -5,6 +5,7 @@
 #include <mrpt/obs/CObservationBatteryState.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -13,10 +14,13 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPoint3D.h>
 
-#include "hardware/neighbour_quantities.h"
+#include "hardware/gnss_fix.h"
+#include "hardware/inertial_reading.h"
+#include "hardware/numbered_quantities.h"
 #include "recording/codecs.h"
 #include "recording/cone_aperture.h"
 #include "recording/jpeg_observation.h"
+#include "recording/recording_error.h"
 #include "recording/testing/sample_robot.h"
 
 namespace robosim {
@@ -304,6 +308,34 @@ TEST(Observations, RecordRangesAndBearingsOfNeighboursByTheirNumbers) {
   EXPECT_EQ(neighbours.sensor_std_yaw, 0.0625f);
   EXPECT_NEAR(neighbours.sensorLocationOnRobot.z(), 0.1, 1e-9);
   EXPECT_EQ(findCodec(board).measurementFrom(neighbours, board, 0, ""), Measurement(measured));
+}
+
+TEST(Observations, RecordFixesOfSatelliteReceiversAsGgaMessages) {
+  auto receiver = plainSensor(SensorKind::values, "gnss", {beamAt(0.5, 0, 0.25, 0)});
+  receiver.quantities = GnssFix::quantities();
+  const Measurement measured = GnssFix{true, 48.123456789, -11.5, 519.75}.values();
+  const auto fix = recorded<mrpt::obs::CObservationGPS>(receiver, measured);
+  EXPECT_EQ(fix.sensorPose.x(), 0.5);
+  const auto& gga = fix.getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields;
+  EXPECT_EQ(gga.fix_quality, 1);
+  EXPECT_EQ(gga.latitude_degrees, 48.123456789);
+  EXPECT_EQ(gga.longitude_degrees, -11.5);
+  EXPECT_EQ(gga.altitude_meters, 519.75);
+  EXPECT_EQ(findCodec(receiver).measurementFrom(fix, receiver, 0, ""), measured);
+  EXPECT_THROW(findCodec(receiver).measurementFrom(mrpt::obs::CObservationGPS(), receiver, 0, ""), RecordingError);
+}
+
+TEST(Observations, RecordInertialReadingsByTheirAxes) {
+  auto inertial = plainSensor(SensorKind::values, "imu");
+  inertial.quantities = InertialReading::quantities();
+  const Measurement measured = InertialReading{0.5, 1, -2, 9.75}.values();
+  const auto imu = recorded<mrpt::obs::CObservationIMU>(inertial, measured);
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_YAW_VEL), 0.5);
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_X_ACC), 1);
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_Y_ACC), -2);
+  EXPECT_EQ(imu.get(mrpt::obs::IMU_Z_ACC), 9.75);
+  EXPECT_FALSE(imu.has(mrpt::obs::IMU_YAW));
+  EXPECT_EQ(findCodec(inertial).measurementFrom(imu, inertial, 0, ""), measured);
 }
 
 TEST(Observations, RecordOdometryWithPoseAndSpeeds) {

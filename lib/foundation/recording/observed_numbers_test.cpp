@@ -41,8 +41,8 @@ TEST(ObservedNumbers, OfOdometryIncludeSpeedsIfRecorded) {
   odometry.odometry = mrpt::poses::CPose2D(1, 2, 0.5);
   EXPECT_EQ(textOf(odometry), "x_m=1 y_m=2 heading_rad=0.5");
   odometry.hasVelocities = true;
-  odometry.velocityLocal = {0.25, 0, -1};
-  EXPECT_EQ(textOf(odometry), "x_m=1 y_m=2 heading_rad=0.5 speed_mps=0.25 turn_radps=-1");
+  odometry.velocityLocal = {0.25, 0.5, -1};
+  EXPECT_EQ(textOf(odometry), "x_m=1 y_m=2 heading_rad=0.5 speed_mps=0.25 turn_radps=-1 lateral_mps=0.5");
 }
 
 TEST(ObservedNumbers, OfGasSensorsAreTemperaturesAndVoltagesOfEachNose) {

@@ -17,7 +17,7 @@ class OdometryCodec : public CodecOf<CObservationOdometry, Odometry> {
     // The constructor would wrap the angle, with a loss of precision.
     observation.odometry.phi(odometry.odom_from_robot.phi);
     const double turn_radps = odometry.turn_radps == 0 ? kNoTurn_radps : odometry.turn_radps;
-    observation.velocityLocal = {odometry.speed_mps, 0, turn_radps};
+    observation.velocityLocal = {odometry.speed_mps, odometry.lateral_mps, turn_radps};
   }
 
   Odometry get(const CObservationOdometry& observation, const SensorInfo&, float) const override {
@@ -29,7 +29,8 @@ class OdometryCodec : public CodecOf<CObservationOdometry, Odometry> {
   std::vector<Number> numbers(CObservationOdometry& observation) const override {
     auto& pose = observation.odometry;
     const auto& velocity = observation.velocityLocal;
-    return {bytesOf(pose.x()), bytesOf(pose.y()), bytesOf(pose.phi()), bytesOf(velocity.vx), bytesOf(velocity.omega)};
+    return {bytesOf(pose.x()),    bytesOf(pose.y()),       bytesOf(pose.phi()),
+            bytesOf(velocity.vx), bytesOf(velocity.omega), bytesOf(velocity.vy)};
   }
 
   bool append(const CObservationOdometry& observation, ObservedNumbers& all) const override {
@@ -48,6 +49,7 @@ class OdometryCodec : public CodecOf<CObservationOdometry, Odometry> {
     if (observation.hasVelocities) {
       odometry.speed_mps = observation.velocityLocal.vx;
       odometry.turn_radps = observation.velocityLocal.omega;
+      odometry.lateral_mps = observation.velocityLocal.vy;
     }
     return odometry;
   }

@@ -1,5 +1,6 @@
 // Camera pictures in recordings: embedded, or in files.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "base/testing/file_size_limit.h"
 #include "base/testing/test_folder.h"
+#include "hardware/camera_head.h"
 #include "recording/byte_archive.h"
 #include "recording/measurements.h"
 #include "recording/observation_writer.h"
@@ -83,6 +85,34 @@ TEST_F(RawlogImagesTest, EmbedsImagesByDefault) {
     EXPECT_EQ(seen->image.getHeight(), 32u);
   }
   EXPECT_EQ(pictures, 10);
+}
+
+TEST_F(RawlogImagesTest, RecordTheAimOfACameraOnAHead) {
+  SensorInfo head = plainSensor(SensorKind::values, "ptz");
+  head.quantities = CameraAim::quantities();
+  SensorInfo camera = sampleCamera();
+  camera.pans = true;
+  RobotInfo robot;
+  robot.name = "robot";
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{head, camera});
+  Readings readings;
+  readings.time = {0, 0.1};
+  readings.measurements = {CameraAim{0.5, 0.25, 3}.values(), Image{sampleJpeg(camera, 100)}};
+  RawlogWriter writer(in("run.rawlog"), std::vector{robot});
+  writer.write({&readings, 1}, {});
+  writer.close();
+  const CRawlog rawlog = loadedRawlog(in("run.rawlog"));
+  const mrpt::obs::CObservationImage* seen = nullptr;
+  for (std::size_t i = 0; i < rawlog.size(); ++i) {
+    if (!seen) seen = dynamic_cast<const mrpt::obs::CObservationImage*>(rawlog.getAsObservation(i).get());
+  }
+  ASSERT_TRUE(seen);
+  // As one that is mounted so, with a third of the field of view of 1.2 rad: MRPT's z axis is the optical axis.
+  const mrpt::math::TPose3D pose = seen->cameraPose.asTPose();
+  const auto axis = pose.composePoint(mrpt::math::TPoint3D(0, 0, 1)) - mrpt::math::TPoint3D(pose.x, pose.y, pose.z);
+  EXPECT_NEAR(std::atan2(axis.y, axis.x), 0.1 + 0.5, 1e-9);
+  EXPECT_NEAR(std::asin(axis.z), 0.25, 1e-9);
+  EXPECT_NEAR(seen->cameraParams.fx(), 24 / std::tan(0.2), 1e-9);
 }
 
 TEST_F(RawlogImagesTest, WritesExternalImagesWhereMrptFindsThem) {

@@ -1,19 +1,22 @@
 #include <cstring>
 #include <deque>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include "base/error_list.h"
+#include "base/input_file.h"
 #include "base/interrupt.h"
-#include "recording/memory_bound.h"
+#include "base/memory_bound.h"
+#include "recording/entry_reader.h"
+#include "recording/member_decoder.h"
+#include "recording/member_index.h"
 #include "recording/observation_source.h"
-#include "recording/picture_folder.h"
-#include "recording/picture_guard.h"
 #include "recording/rawlog_reader.h"
 
 namespace robosim {
@@ -22,58 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
 
-/// Maximum size of a single allocation while an entry is read: ten times the largest images and point clouds.
-constexpr std::size_t kMaxPieceBytes = std::size_t{256} << 20;
-/// Maximum memory of one entry: one such allocation, and as much again for its other data.
-constexpr std::size_t kMaxEntryBytes = 2 * kMaxPieceBytes;
 /// Number of entries between two measurements of the process's memory.
 constexpr std::uint64_t kEntriesPerMeasurement = 16;
-
-/// A damaged entry that requests more than kMaxPieceBytes.
-class EntryTooLarge : public std::exception {
- public:
-  const char* what() const noexcept override { return "the next entry requests more than 256 MiB; it is damaged"; }
-};
-
-/// An MRPT archive that reads from an UnpackedFile.
-class UnpackedArchive : public mrpt::serialization::CArchive {
- public:
-  explicit UnpackedArchive(UnpackedFile& file) : file_(file) {}
-
-  std::string getArchiveDescription() const override { return "rawlog"; }
-  /// Whether a read of more than kMaxPieceBytes was requested.
-  bool hasExceededLimit() const { return has_exceeded_limit_; }
-  /// Cause for which a picture ended the reading of an entry; empty for none.
-  const std::string& refusal() const { return refusal_; }
-  const PictureGuard& pictures() const { return pictures_; }
-  /// Prepares for another entry.
-  void beginEntry() {
-    has_exceeded_limit_ = false;
-    refusal_.clear();
-    pictures_.beginEntry();
-  }
-
- protected:
-  std::size_t write(const void*, std::size_t) override { throw std::logic_error("UnpackedArchive only reads"); }
-  std::size_t read(void* to, std::size_t size) override {
-    has_exceeded_limit_ = has_exceeded_limit_ || size > kMaxPieceBytes;
-    if (has_exceeded_limit_) throw EntryTooLarge();
-    const std::size_t got = file_.read(to, size);
-    try {
-      if (got == size && size > 0) pictures_.inspect(static_cast<std::uint8_t*>(to), size);
-    } catch (const std::runtime_error& error) {
-      refusal_ = error.what();  // MRPT replaces the exception by one of its own
-      throw;
-    }
-    return got;
-  }
-
- private:
-  UnpackedFile& file_;
-  PictureGuard pictures_;
-  bool has_exceeded_limit_ = false;
-  std::string refusal_;
-};
 
 /// Every object begins with the length of its class name, with the highest bit set, and the name: C…, with or without a
 /// namespace.
@@ -86,27 +39,38 @@ bool hasRawlogHeader(UnpackedFile& file) {
 
 class RawlogSource final : public ObservationSource {
  public:
-  RawlogSource(const fs::path& path, UnpackedFile::Access access);
+  RawlogSource(const fs::path& path, UnpackedFile::Access access, int threads);
 
   CObservation::Ptr next() override;
   std::uint64_t position() const override { return entry_position_; }
   void seek(std::uint64_t position) override;
   const ReadReport& report() const override { return report_; }
+  void prepareWith(const Prepare& prepare) override { prepare_ = prepare; }
+  std::shared_ptr<void> prepared() const override { return prepared_; }
 
  private:
+  void noteMembers(const fs::path& path);
+  std::optional<RawlogEntry> nextDecoded();
   void readEntry();
-  void add(const mrpt::serialization::CSerializable::Ptr& object);
+  void add(RawlogEntry entry);
   void add(const mrpt::obs::CActionCollection& actions);
-  void addObservation(const CObservation::Ptr& observation);
   void addOdometry(const mrpt::Clock::time_point& time);
   void stop(const std::string& why, bool is_damage = true);
   void describeDamage();
 
   UnpackedFile file_;
-  UnpackedArchive archive_{file_};
-  MemoryBound bound_{kMaxEntryBytes};
+  EntryReader entries_{[this](void* to, std::size_t size) { return file_.read(to, size); }};
   std::string name_;
-  std::deque<CObservation::Ptr> ready_;
+  int threads_;
+  std::unique_ptr<InputFile> for_decoder_;  ///< null: the decoder does not read it, or has it
+  std::unique_ptr<MemberDecoder> decoder_;
+  Prepare prepare_;
+  struct Ready {
+    CObservation::Ptr observation;
+    std::shared_ptr<void> prepared{};
+  };
+  std::deque<Ready> ready_;
+  std::shared_ptr<void> prepared_;        ///< of the observation that next() has returned last
   std::uint64_t entry_position_ = 0;      ///< of the entry that contained them
   mrpt::poses::CPose2D odom_from_robot_;  ///< accumulated from actions
   mrpt::poses::CPose3D odom_in_space_;    ///< the same of movements in space, of which it is the projection
@@ -136,37 +100,47 @@ void RawlogSource::describeDamage() {
   report_.error = name_ + ": " + text;
 }
 
+/// The next entry from the decoder, which starts at the end of the first member: the first entries of a recording are
+/// often all that is read. nullopt if there is none; `file_` then continues where the decoder has ended.
+std::optional<RawlogEntry> RawlogSource::nextDecoded() {
+  if (for_decoder_) {
+    if (const auto packed = file_.endOfMember()) {
+      const MemberPlace from{*packed, file_.position()};
+      decoder_ = std::make_unique<MemberDecoder>(std::move(for_decoder_), from, threads_, prepare_);
+    }
+  }
+  if (!decoder_) return std::nullopt;
+  auto entry = decoder_->next();
+  if (!entry) {
+    const MemberPlace end = decoder_->end();
+    decoder_.reset();
+    file_.seekMember(end.packed, end.unpacked);
+  }
+  return entry;
+}
+
 void RawlogSource::readEntry() {
+  if (auto decoded = nextDecoded()) return add(std::move(*decoded));
   if (file_.atEnd()) {
     at_end_ = true;
     return;
   }
-  if (measured_entries_++ % kEntriesPerMeasurement == 0) bound_.measure();
+  if (measured_entries_++ % kEntriesPerMeasurement == 0) entries_.measure();
   entry_position_ = file_.position();
-  archive_.beginEntry();
   try {
     // MRPT allocates as much memory as a number in the file specifies before it reads the data.
-    mrpt::serialization::CSerializable::Ptr object;
+    RawlogEntry entry;
     {
-      const MemoryBound::Hold hold(bound_);
-      object = archive_.ReadObject<mrpt::serialization::CSerializable>();
+      const MemoryBound::Hold hold(entries_.bound());
+      entry = entries_.next();
     }
-    ++report_.entries;
-    if (const auto& fault = archive_.pictures().fault(); !fault.empty()) {
-      report_.is_damaged = true;
-      if (damaged_pictures_++ == 0) {
-        first_damage_ = "entry " + std::to_string(report_.entries) + " (byte " + std::to_string(entry_position_) +
-                        " when unpacked): " + fault;
-      }
-      describeDamage();
-    }
-    add(object);
+    entry.position = entry_position_;
+    add(std::move(entry));
   } catch (const std::bad_alloc&) {
-    stop(EntryTooLarge().what());
+    stop(kEntryTooLarge);
   } catch (const std::exception& error) {
     throwIfInterrupted(name_ + " was not read to its end");  // MRPT replaces the exception by one of its own
-    if (archive_.hasExceededLimit()) return stop(EntryTooLarge().what());
-    if (!archive_.refusal().empty()) return stop(archive_.refusal());
+    if (const std::string failure = entries_.failure(); !failure.empty()) return stop(failure);
     if (const std::string& fault = file_.fault(); !fault.empty()) return stop(fault, !file_.isCutOff());
     if (file_.atEnd()) return stop("it is cut off", false);
     // MRPT's text has the position in its source code before the message, and a call stack after it.
@@ -177,20 +151,25 @@ void RawlogSource::readEntry() {
   }
 }
 
-void RawlogSource::add(const mrpt::serialization::CSerializable::Ptr& object) {
-  if (auto single = std::dynamic_pointer_cast<CObservation>(object)) {
-    addObservation(single);
-  } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
-    for (const auto& observation : *frame) addObservation(observation);
-  } else if (const auto actions = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
-    add(*actions);
-  } else {
-    ++report_.skipped_entries;
+void RawlogSource::add(RawlogEntry entry) {
+  ++report_.entries;
+  entry_position_ = entry.position;
+  if (!entry.fault.empty()) {
+    report_.is_damaged = true;
+    if (damaged_pictures_++ == 0) {
+      first_damage_ = "entry " + std::to_string(report_.entries) + " (byte " + std::to_string(entry_position_) +
+                      " when unpacked): " + entry.fault;
+    }
+    describeDamage();
   }
-}
-
-void RawlogSource::addObservation(const CObservation::Ptr& observation) {
-  if (!archive_.pictures().isDamaged(*observation)) ready_.push_back(observation);
+  if (entry.is_skipped) ++report_.skipped_entries;
+  for (std::size_t i = 0; i < entry.objects.size(); ++i) {
+    if (auto observation = std::dynamic_pointer_cast<CObservation>(entry.objects[i])) {
+      ready_.push_back({std::move(observation), entry.prepared.empty() ? nullptr : std::move(entry.prepared[i])});
+    } else {
+      add(dynamic_cast<const mrpt::obs::CActionCollection&>(*entry.objects[i]));
+    }
+  }
 }
 
 void RawlogSource::add(const mrpt::obs::CActionCollection& actions) {
@@ -212,22 +191,34 @@ void RawlogSource::addOdometry(const mrpt::Clock::time_point& time) {
   odometry->timestamp = time;
   odometry->sensorLabel = kFromActions;
   odometry->odometry = odom_from_robot_;
-  ready_.push_back(odometry);
+  ready_.push_back({odometry});
 }
 
-RawlogSource::RawlogSource(const fs::path& path, UnpackedFile::Access access)
-    : file_(path, access), name_(path.string()) {
+RawlogSource::RawlogSource(const fs::path& path, UnpackedFile::Access access, int threads)
+    : file_(path, access), name_(path.string()), threads_(threads) {
   if (!hasRawlogHeader(file_)) {
     throw ConfigError(name_ + ": is no MRPT rawlog, which begins with the name of a class");
   }
+  if (access == UnpackedFile::Access::random) {
+    noteMembers(path);
+  } else if (threads > 1) {
+    for_decoder_ = MemberDecoder::open(path);
+  }
+}
+
+void RawlogSource::noteMembers(const fs::path& path) {
+  const auto index = MemberIndex::read(path);
+  if (!index || !MemberDecoder::open(path)) return;
+  for (const auto& member : index->members) file_.noteMember(member.packed, member.unpacked);
 }
 
 CObservation::Ptr RawlogSource::next() {
   while (ready_.empty() && !at_end_) readEntry();
   if (ready_.empty()) return {};
-  auto observation = std::move(ready_.front());
+  Ready ready = std::move(ready_.front());
   ready_.pop_front();
-  return observation;
+  prepared_ = std::move(ready.prepared);
+  return std::move(ready.observation);
 }
 
 void RawlogSource::seek(std::uint64_t position) {
@@ -242,8 +233,8 @@ void RawlogSource::seek(std::uint64_t position) {
 
 }  // namespace
 
-std::unique_ptr<ObservationSource> openRawlog(const fs::path& file, UnpackedFile::Access access) {
-  return std::make_unique<RawlogSource>(file, access);
+std::unique_ptr<ObservationSource> openRawlog(const fs::path& file, UnpackedFile::Access access, int threads) {
+  return std::make_unique<RawlogSource>(file, access, threads);
 }
 
 }  // namespace robosim

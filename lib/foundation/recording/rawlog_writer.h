@@ -10,6 +10,7 @@
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
+#include "topics/robot_topics.h"
 #include "topics/topic.h"
 
 namespace robosim {
@@ -47,11 +48,13 @@ class RawlogWriter {
   /// @param note first entry of each file, a CObservationComment (with sensory_frames, in a separate pair); empty for
   ///        none
   /// @param start time of the note
+  /// @param distribution of the messages of an MCAP file
   /// @throws ConfigError when a file cannot be created, a robot has no odometry for its actions, or an MCAP file is to
   ///         have sensory frames or external images
   RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
                RawlogFormat format = RawlogFormat::observations, RawlogImages images = RawlogImages::embedded,
-               const std::string& note = "", const SimTime& start = {});
+               const std::string& note = "", const SimTime& start = {},
+               RosDistribution distribution = RosDistribution::jazzy);
   ~RawlogWriter();
 
   /// Adds a robot to the steps that follow, the last in their order.
@@ -65,10 +68,11 @@ class RawlogWriter {
   /// @param commands executed by the robots in this step; empty if unknown.
   /// @param comments texts that precede the step's observations, each as a CObservationComment
   /// @param messages of further topics of an MCAP file
+  /// @param velocities of each robot, true ones, which an MCAP file contains; empty if unknown
   /// @throws RecordingError when the disk is full or fails. An earlier file of that name is unchanged.
   void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
              std::span<const Command> commands = {}, std::span<const std::string> comments = {},
-             std::span<const TopicMessage> messages = {});
+             std::span<const TopicMessage> messages = {}, std::span<const RobotVelocity> velocities = {});
   /// The MCAP file, for what is not of a step; null for a rawlog. Valid until the next call. @throws as write()
   McapRecording* mcap();
   bool isMcap() const;

@@ -1,6 +1,8 @@
 #include "recording/rawlog_writer.h"
 
+#include <algorithm>
 #include <fstream>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -101,6 +103,37 @@ TEST_F(RawlogWriterTest, WritesEveryStepOnceInManyBatches) {
       ASSERT_EQ(rawlog.getAsObservation(entry)->timestamp, toTimestamp({entry / a_step, 0.1})) << "entry " << entry;
     }
   }
+}
+
+TEST_F(RawlogWriterTest, KeepsExactPicturesOfTwoBatchesOnly) {
+  // 2^20 depths are 4 MiB, and a batch ends at 32 MiB: 8 steps wait, and 8 are written.
+  SensorInfo camera = sampleCamera();
+  camera.camera.width_px = 2048;
+  camera.camera.height_px = 512;
+  camera.camera.layers = {false, true, false};
+  camera.range_max_m = 5;
+  RobotInfo robot;
+  robot.name = "A";
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{camera});
+  RawlogWriter writer(folder_ / "pictures.rawlog", {&robot, 1});
+  std::vector<std::weak_ptr<const RawPicture>> pictures;
+  const auto alive = [&] {
+    return std::count_if(pictures.begin(), pictures.end(), [](const auto& picture) { return !picture.expired(); });
+  };
+  for (std::uint64_t step = 0; step < 20; ++step) {
+    RawPicture raw{2048, 512, 5, {}, {}, {}};
+    raw.depth_m.resize(raw.pixels());
+    Readings readings;
+    readings.time = {step, 0.1};
+    const auto picture = std::make_shared<const RawPicture>(std::move(raw));
+    pictures.push_back(picture);
+    readings.measurements = {Image{"", picture}};
+    writer.write({&readings, 1}, {});
+    ASSERT_LE(alive(), 16 + 1) << step << ", with that of the loop";
+  }
+  writer.close();
+  EXPECT_EQ(alive(), 0);
+  EXPECT_EQ(loaded(folder_ / "pictures.rawlog").size(), 20u);
 }
 
 TEST_F(RawlogWriterTest, KeepsTheGroundTruthOfEachRobot) {

@@ -11,8 +11,8 @@
 #include <zlib.h>
 
 #include "base/error_list.h"
+#include "base/memory_bound.h"
 #include "recording/byte_archive.h"
-#include "recording/memory_bound.h"
 #include "recording/observations.h"
 #include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
@@ -94,7 +94,7 @@ TEST_F(RecordedStepsTest, HaveARobotThatWasAddedFromItsFirstStepOnAlsoAfterSeeki
   }
 }
 
-/// Size of the decompressed data of a truncated gzip file.
+/// Size of the decompressed data of a truncated gzip file of members.
 std::size_t unpackedSize(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::vector<char> in((std::istreambuf_iterator<char>(stream)), {}), out(1 << 16);
@@ -102,14 +102,17 @@ std::size_t unpackedSize(const std::filesystem::path& file) {
   EXPECT_EQ(inflateInit2(&inflating, 15 + 16), Z_OK);
   inflating.next_in = reinterpret_cast<Bytef*>(in.data());
   inflating.avail_in = static_cast<unsigned>(in.size());
+  std::size_t size = 0;
   int result = Z_OK;
   do {
     inflating.next_out = reinterpret_cast<Bytef*>(out.data());
     inflating.avail_out = static_cast<unsigned>(out.size());
     result = inflate(&inflating, Z_NO_FLUSH);
-  } while (result == Z_OK);
+    size += out.size() - inflating.avail_out;
+    if (result == Z_STREAM_END) result = inflateReset(&inflating);
+  } while (result == Z_OK && (inflating.avail_in > 0 || inflating.avail_out == 0));
   inflateEnd(&inflating);
-  return inflating.total_out;
+  return size;
 }
 
 TEST_F(RecordedStepsTest, ReadAllCompleteStepsOfATruncatedFile) {

@@ -7,6 +7,8 @@
 
 #include <mrpt/obs/CObservationRawDAQ.h>
 
+#include "hardware/camera_head.h"
+#include "hardware/led_color.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
 
@@ -17,10 +19,13 @@ using mrpt::math::TPoint3D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationRawDAQ;
 
-/// Indices of the outputs and inputs of STATUS.
-enum OutputColumn { kSpeed, kTurn, kPan, kActivity, kByDriver, kOutputs };
-/// Bits of kByDriver.
-constexpr int kIsByDriver = 1, kIsEmergencyStop = 2, kIsGripping = 4;
+/// Indices of the outputs and inputs of STATUS. Only an omnidirectional robot has kLateral. The outputs of a robot with
+/// a camera's head end with those of CameraHeadColumn.
+enum OutputColumn { kSpeed, kTurn, kPan, kActivity, kByDriver, kOutputs, kLateral = kOutputs, kOutputsOmni };
+enum CameraHeadColumn { kHeadPan, kHeadTilt, kHeadZoom, kHeadPanSpeed, kHeadTiltSpeed };
+constexpr std::size_t kHeadOutputs = kHeadTiltSpeed + 1;
+/// Bits of kByDriver. The higher ones are the colour of the LEDs.
+constexpr int kIsByDriver = 1, kIsEmergencyStop = 2, kIsGripping = 4, kLedColor = 8;
 enum Input { kLaserPan, kStalled, kTooFar, kWon, kInputs };
 
 std::shared_ptr<CObservationRawDAQ> rawDaq(const Label& label) {
@@ -42,11 +47,9 @@ std::optional<SerializedTemplate> templateOf(CObservationRawDAQ& daq, Lists&... 
   return SerializedTemplate::of(daq, {bytes_of(std::span(&daq.timestamp, 1)), bytes_of(lists)...}, [&](int which) {
     // Numbers that do not occur elsewhere in the observation.
     daq.timestamp = toTimestamp({static_cast<std::uint64_t>(which) + 12345, 0.1});
-    const auto fill = [which](auto& list) {
-      for (auto& number : list) {
-        number =
-            static_cast<std::decay_t<decltype(number)>>(0.123 + 7 * which + static_cast<double>(&number - list.data()));
-      }
+    double next = 0.123 + 1000 * which;  // differs among the lists, too
+    const auto fill = [&next](auto& list) {
+      for (auto& number : list) number = static_cast<std::decay_t<decltype(number)>>(next++);
     };
     (fill(lists), ...);
   });
@@ -98,7 +101,9 @@ RobotStatusRecord::RobotStatusRecord(const RobotInfo& robot) : robot_(robot.name
     points_.push_back({points, templateOf(*points, points->AIN_float)});
   }
   auto status = rawDaq({robot_, kStatus, ""});
-  status->AOUT_double.resize(kOutputs);
+  const std::size_t outputs = robot.drive.kind == DriveKind::omni ? kOutputsOmni : kOutputs;
+  has_camera_head_ = cameraHeadIn(*sensors_).has_value();
+  status->AOUT_double.resize(outputs + (has_camera_head_ ? kHeadOutputs : 0));
   status->AIN_double.resize(kInputs);
   status->AIN_channel_count = kInputs;
   status_ = {status, templateOf(*status, status->AOUT_double, status->AIN_double)};
@@ -137,7 +142,19 @@ void RobotStatusRecord::fillStatus(const Readings& readings, const Command& comm
   status.AOUT_double[kPan] = command.laser_pan_rad;
   status.AOUT_double[kActivity] = static_cast<double>(command.activity);
   status.AOUT_double[kByDriver] = (command.by_driver ? kIsByDriver : 0) +
-                                  (command.emergency_stop ? kIsEmergencyStop : 0) + (command.grip ? kIsGripping : 0);
+                                  (command.emergency_stop ? kIsEmergencyStop : 0) + (command.grip ? kIsGripping : 0) +
+                                  static_cast<double>(kLedColor) * command.led_color;
+  const std::size_t outputs = status.AOUT_double.size() - (has_camera_head_ ? kHeadOutputs : 0);
+  if (outputs > kLateral) status.AOUT_double[kLateral] = command.lateral_mps;
+  if (has_camera_head_) {
+    const auto& [aim, pan_radps, tilt_radps] = command.camera_head;
+    double* const head = status.AOUT_double.data() + outputs;
+    head[kHeadPan] = aim.pan_rad;
+    head[kHeadTilt] = aim.tilt_rad;
+    head[kHeadZoom] = aim.zoom;
+    head[kHeadPanSpeed] = pan_radps;
+    head[kHeadTiltSpeed] = tilt_radps;
+  }
   status.AIN_double[kLaserPan] = readings.laser_pan_rad;
   status.AIN_double[kStalled] = readings.stalled ? 1 : 0;
   status.AIN_double[kTooFar] = readings.is_too_far ? 1 : 0;
@@ -184,15 +201,17 @@ bool RobotStatusRecord::isAlongAxes(std::size_t slot, const Echoes& echoes, doub
 
 RobotStatus statusFrom(const CObservation& observation) {
   const auto& daq = asRawDaq(observation);
-  if (daq.AOUT_double.size() != kOutputs || daq.AIN_double.size() != kInputs) {
-    refuse(observation, "it should hold 5 outputs and 4 inputs");
+  const bool has_camera_head = daq.AOUT_double.size() >= kOutputs + kHeadOutputs;
+  const std::size_t outputs = daq.AOUT_double.size() - (has_camera_head ? kHeadOutputs : 0);
+  if ((outputs != kOutputs && outputs != kOutputsOmni) || daq.AIN_double.size() != kInputs) {
+    refuse(observation, "it should hold 5, 6, 10 or 11 outputs and 4 inputs");
   }
   const double activity = daq.AOUT_double[kActivity];
   if (!(activity >= 0 && activity <= static_cast<double>(Activity::absent)))
     refuse(observation, "there is no such activity");
   const double by_driver = daq.AOUT_double[kByDriver];
-  if (!(by_driver >= 0 && by_driver <= kIsByDriver + kIsEmergencyStop + kIsGripping))
-    refuse(observation, "whether a person drives is not a sum of 1, 2 and 4");
+  if (!(by_driver >= 0 && by_driver < kLedColor * (kLedColorMax + 1.0)))
+    refuse(observation, "whether a person drives is not a sum of 1, 2, 4 and 8 times a colour of LEDs");
   RobotStatus status;
   status.command.speed_mps = daq.AOUT_double[kSpeed];
   status.command.turn_radps = daq.AOUT_double[kTurn];
@@ -202,6 +221,14 @@ RobotStatus statusFrom(const CObservation& observation) {
   status.command.by_driver = (static_cast<int>(by_driver) & kIsByDriver) != 0;
   status.command.emergency_stop = (static_cast<int>(by_driver) & kIsEmergencyStop) != 0;
   status.command.grip = (static_cast<int>(by_driver) & kIsGripping) != 0;
+  status.command.led_color = static_cast<std::uint32_t>(by_driver) / kLedColor;
+  if (outputs > kLateral) status.command.lateral_mps = daq.AOUT_double[kLateral];
+  status.has_camera_head = has_camera_head;
+  if (has_camera_head) {
+    const double* const head = daq.AOUT_double.data() + outputs;
+    status.command.camera_head = {
+        {head[kHeadPan], head[kHeadTilt], head[kHeadZoom]}, head[kHeadPanSpeed], head[kHeadTiltSpeed]};
+  }
   status.stalled = daq.AIN_double[kStalled] != 0;
   status.is_too_far = daq.AIN_double[kTooFar] != 0;
   status.has_won = daq.AIN_double[kWon] != 0;

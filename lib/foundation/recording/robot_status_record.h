@@ -22,8 +22,10 @@ namespace robosim {
 /// CObservationRawDAQ, which stock tools preserve:
 ///
 ///  * STATUS, in each step: analog outputs (double) are the executed command: speed [m/s], turn [rad/s], pan [rad],
-///    activity, and the sum of 1 when a person drives and 2 for an emergency stop; analog inputs (double) are the pan
-///    angle of the panning sensors [rad], then 1 for stalled, for a refused CheckWin, and for having won;
+///    activity, and the sum of 1 when a person drives and 2 for an emergency stop; of an omnidirectional robot the
+///    lateral speed [m/s]; of a robot with a camera's head pan [rad], tilt [rad], zoom and the speeds of pan and tilt
+///    [rad/s]; analog inputs (double) are the pan angle of the panning sensors [rad], then 1 for stalled, for a refused
+///    CheckWin, and for having won;
 ///  * POINTS, for a sensor with echoes off its beams' axes or not at the reported ranges (the nearest point in a wide
 ///    sonar cone, an object nearer than the minimum range), in steps with an observation of it: analog inputs (float),
 ///    x y z [m] of each echo, robot frame;
@@ -41,6 +43,10 @@ class RobotStatusRecord {
                                                std::span<const std::uint8_t> kept = {});
   /// Serialises the observations of of().
   void write(const Readings&, const Command&, ByteArchive& archive, std::span<const std::uint8_t> kept = {});
+
+  /// Whether write() writes STATUS by its template; otherwise MRPT writes the same bytes, with three times the
+  /// instructions.
+  bool hasStatusTemplate() const { return status_.serialized.has_value(); }
 
  private:
   struct Axis {
@@ -61,6 +67,7 @@ class RobotStatusRecord {
 
   std::string robot_;
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
+  bool has_camera_head_ = false;
   std::vector<std::vector<Axis>> axes_;  ///< of the beams, by sensor, for a pan angle of 0
   TemplatedObservation status_;
   std::vector<TemplatedObservation> points_;  ///< by sensor
@@ -69,6 +76,7 @@ class RobotStatusRecord {
 /// Content of STATUS.
 struct RobotStatus {
   Command command;
+  bool has_camera_head = false;  ///< the robot
   float laser_pan_rad = 0;
   bool stalled = false;
   bool is_too_far = false;

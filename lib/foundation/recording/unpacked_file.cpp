@@ -37,6 +37,12 @@ struct Checkpoint {
   std::vector<unsigned char> window;  ///< the preceding decompressed data
 };
 
+/// The first checkpoint after a position in the decompressed data.
+std::vector<Checkpoint>::const_iterator firstAfter(const std::vector<Checkpoint>& checkpoints, std::uint64_t position) {
+  return std::upper_bound(checkpoints.begin(), checkpoints.end(), position,
+                          [](std::uint64_t p, const Checkpoint& checkpoint) { return p < checkpoint.unpacked; });
+}
+
 }  // namespace
 
 /// The rawlog in an MCAP file (kRawlogTopic).
@@ -77,6 +83,8 @@ struct UnpackedFile::Impl {
   std::size_t begin = 0, end = 0;  ///< unread range of `output`
   std::uint64_t unpacked = 0;      ///< position of `end` in the decompressed data
   std::vector<Checkpoint> checkpoints;
+  std::vector<Checkpoint> noted;  ///< beginnings of members that have not been read; none after one that was wrong
+  std::uint64_t member_packed = 0, member_unpacked = 0;  ///< beginning of the present member
 
   ~Impl() {
     if (has_stream) inflateEnd(&stream);
@@ -90,6 +98,7 @@ struct UnpackedFile::Impl {
   void copyMore();
   void unpackMore();
   void endMember();
+  void checkNoted();
   void beginMember();
   void addCheckpoint(int bits, bool is_beginning);
   void restore(const Checkpoint& checkpoint);
@@ -206,7 +215,8 @@ void UnpackedFile::Impl::unpackMore() {
   // Z_BUF_ERROR: more input or output space is needed.
   if (result != Z_OK && result != Z_BUF_ERROR) return stop(stream.msg ? stream.msg : "it cannot be unpacked");
   const bool at_block = (stream.data_type & 128) != 0 && (stream.data_type & 64) == 0;
-  if (at_block && access == Access::random && unpacked >= checkpoints.back().unpacked + kBytesPerCheckpoint) {
+  if (at_block && access == Access::random && noted.empty() &&
+      unpacked >= checkpoints.back().unpacked + kBytesPerCheckpoint) {
     addCheckpoint(stream.data_type & 7, false);
   }
 }
@@ -221,6 +231,16 @@ void UnpackedFile::Impl::endMember() {
     left -= taken;
   }
   is_between_members = true;
+  checkNoted();
+}
+
+/// Forgets the noted members if the one that has ended is another one than noted. One without content is never noted.
+void UnpackedFile::Impl::checkNoted() {
+  if (noted.empty() || unpacked == member_unpacked) return;
+  const auto after = firstAfter(noted, member_unpacked);
+  const bool is_noted =
+      after != noted.begin() && (after - 1)->unpacked == member_unpacked && (after - 1)->packed == member_packed;
+  if (!is_noted || (after != noted.end() && after->unpacked < unpacked)) noted.clear();
 }
 
 /// A gzip member is followed by another one; other data is ignored.
@@ -234,7 +254,10 @@ void UnpackedFile::Impl::beginMember() {
   }
   inflateReset2(&stream, kGzip);
   is_raw = false;
-  if (access == Access::random && unpacked >= checkpoints.back().unpacked + kBytesPerCheckpoint) addCheckpoint(0, true);
+  member_packed = packedPosition();
+  member_unpacked = unpacked;
+  if (access == Access::random && noted.empty() && unpacked >= checkpoints.back().unpacked + kBytesPerCheckpoint)
+    addCheckpoint(0, true);
 }
 
 void UnpackedFile::Impl::addCheckpoint(int bits, bool is_beginning) {
@@ -267,6 +290,8 @@ void UnpackedFile::Impl::restore(const Checkpoint& checkpoint) {
   }
   if (!is_packed) return;
   is_raw = !checkpoint.is_beginning;
+  member_packed = checkpoint.packed;
+  member_unpacked = checkpoint.unpacked;
   inflateReset2(&stream, is_raw ? kRaw : kGzip);
   if (checkpoint.bits > 0) {
     if (!fillInput()) return stop(kCutOff);
@@ -317,10 +342,9 @@ void UnpackedFile::seek(std::uint64_t position) {
     checkpoint.unpacked = checkpoint.packed = position;
     if (position < here || position > impl_->unpacked) return impl_->restore(checkpoint);
   } else {
-    const auto after =
-        std::upper_bound(impl_->checkpoints.begin(), impl_->checkpoints.end(), position,
-                         [](std::uint64_t p, const Checkpoint& checkpoint) { return p < checkpoint.unpacked; });
-    const Checkpoint& checkpoint = *(after - 1);
+    const auto after = firstAfter(impl_->checkpoints, position), after_noted = firstAfter(impl_->noted, position);
+    const bool is_noted = after_noted != impl_->noted.begin() && (after_noted - 1)->unpacked > (after - 1)->unpacked;
+    const Checkpoint& checkpoint = is_noted ? *(after_noted - 1) : *(after - 1);
     if (position < here || checkpoint.unpacked > impl_->unpacked) impl_->restore(checkpoint);
   }
   while (this->position() < position) {
@@ -328,6 +352,35 @@ void UnpackedFile::seek(std::uint64_t position) {
     if (impl_->begin == impl_->end) return;
     impl_->begin += std::min<std::uint64_t>(position - this->position(), impl_->end - impl_->begin);
   }
+}
+
+std::optional<std::uint64_t> UnpackedFile::endOfMember() {
+  Impl& impl = *impl_;
+  if (!impl.is_packed || impl.begin != impl.end) return std::nullopt;
+  impl.begin = impl.end = 0;
+  // The end of a member may follow the last byte of its content.
+  while (impl.end == 0 && !impl.is_between_members && !impl.is_over) impl.unpackMore();
+  return impl.end == 0 && impl.is_between_members ? std::optional(impl.packedPosition()) : std::nullopt;
+}
+
+void UnpackedFile::seekMember(std::uint64_t packed, std::uint64_t unpacked) {
+  assert(impl_->is_packed);
+  Checkpoint beginning;
+  beginning.unpacked = unpacked;
+  beginning.packed = packed;
+  beginning.is_beginning = true;
+  impl_->restore(beginning);
+  impl_->is_between_members = !impl_->is_over;  // data that is no member is ignored
+}
+
+void UnpackedFile::noteMember(std::uint64_t packed, std::uint64_t unpacked) {
+  assert(impl_->access == Access::random && impl_->is_packed);
+  assert(impl_->noted.empty() || impl_->noted.back().unpacked < unpacked);
+  Checkpoint beginning;
+  beginning.unpacked = unpacked;
+  beginning.packed = packed;
+  beginning.is_beginning = true;
+  impl_->noted.push_back(std::move(beginning));
 }
 
 bool UnpackedFile::atEnd() {

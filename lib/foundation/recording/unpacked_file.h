@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace robosim {
@@ -30,6 +31,15 @@ class UnpackedFile {
   std::uint64_t position() const;
   /// Continues at a byte that was read before, or at the next one; requires random access.
   void seek(std::uint64_t position);
+  /// Position in the file of the end of a gzip member all of whose content has been read; nullopt within a member.
+  std::optional<std::uint64_t> endOfMember();
+  /// Continues at a gzip member, whose position in the file is known, as if all before it had been read.
+  /// @pre the file is a gzip file
+  void seekMember(std::uint64_t packed, std::uint64_t unpacked);
+  /// Notes where a gzip member begins, so that seek() continues there for the bytes that follow, also if they were not
+  /// read. Requires random access. If a member that is read is none of those noted, all notes are wrong, and forgotten.
+  /// @pre later in the file than those that were noted before
+  void noteMember(std::uint64_t packed, std::uint64_t unpacked);
 
   /// Whether the file was read completely and without error.
   bool atEnd();

@@ -337,6 +337,23 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
+/// Range of Humble, which has no variance; with the bytes of both, as those behind the last field are ignored.
+struct HumbleRange {
+  Header header;
+  std::uint8_t radiation_type = Range::kUltrasound;
+  float field_of_view = 0, min_range = 0, max_range = 0, range = 0;  ///< as of Range
+  static constexpr const char* kType = Range::kType;
+  static void describe(auto& self, auto&& visit) {
+    visit("header", self.header);
+    visit("radiation_type", self.radiation_type);
+    visit("field_of_view", self.field_of_view);
+    visit("min_range", self.min_range);
+    visit("max_range", self.max_range);
+    visit("range", self.range);
+  }
+  bool operator==(const HumbleRange&) const = default;
+};
+
 /// What is not measured is NaN.
 struct BatteryState {
   static constexpr std::uint8_t kDischarging = 2;
@@ -402,6 +419,39 @@ struct Imu {
     visit("linear_acceleration_covariance", self.linear_acceleration_covariance);
   }
   bool operator==(const Imu&) const = default;
+};
+
+struct NavSatStatus {
+  static constexpr std::int8_t kNoFix = -1, kFix = 0;
+  static constexpr std::uint16_t kGps = 1;
+  std::int8_t status = kNoFix;
+  std::uint16_t service = kGps;
+  static constexpr const char* kType = "sensor_msgs/msg/NavSatStatus";
+  static void describe(auto& self, auto&& visit) {
+    visit("status", self.status);
+    visit("service", self.service);
+  }
+  bool operator==(const NavSatStatus&) const = default;
+};
+
+struct NavSatFix {
+  Header header;
+  NavSatStatus status;
+  double latitude = 0, longitude = 0;  ///< [degrees], WGS 84
+  double altitude = 0;                 ///< [m] above the ellipsoid
+  std::array<double, 9> position_covariance{};
+  std::uint8_t position_covariance_type = 0;  ///< 0: unknown
+  static constexpr const char* kType = "sensor_msgs/msg/NavSatFix";
+  static void describe(auto& self, auto&& visit) {
+    visit("header", self.header);
+    visit("status", self.status);
+    visit("latitude", self.latitude);
+    visit("longitude", self.longitude);
+    visit("altitude", self.altitude);
+    visit("position_covariance", self.position_covariance);
+    visit("position_covariance_type", self.position_covariance_type);
+  }
+  bool operator==(const NavSatFix&) const = default;
 };
 
 struct CompressedImage {

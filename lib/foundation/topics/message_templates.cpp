@@ -28,14 +28,16 @@ ros::MessageTemplate scanTemplate(const SensorInfo& sensor, const ScanGeometry& 
   return stamped(scan, scan.ranges);
 }
 
-ros::MessageTemplate rangeTemplate(const SensorInfo& sensor, const std::string& frame) {
-  ros::Range range;
-  range.header.frame_id = frame;
-  range.radiation_type = sensor.kind == SensorKind::sonar ? ros::Range::kUltrasound : ros::Range::kInfrared;
-  range.field_of_view = static_cast<float>(sensor.beam_width_rad);
-  range.min_range = static_cast<float>(sensor.range_min_m);
-  range.max_range = static_cast<float>(sensor.range_max_m);
-  return stamped(range, range.range);
+ros::MessageTemplate rangeTemplate(const SensorInfo& sensor, const std::string& frame, RosDistribution distribution) {
+  const auto make = [&](auto range) {
+    range.header.frame_id = frame;
+    range.radiation_type = sensor.kind == SensorKind::sonar ? ros::Range::kUltrasound : ros::Range::kInfrared;
+    range.field_of_view = static_cast<float>(sensor.beam_width_rad);
+    range.min_range = static_cast<float>(sensor.range_min_m);
+    range.max_range = static_cast<float>(sensor.range_max_m);
+    return stamped(range, range.range);
+  };
+  return distribution == RosDistribution::humble ? make(ros::HumbleRange()) : make(ros::Range());
 }
 
 ros::MessageTemplate odometryTemplate(const std::string& frame, const std::string& child) {
@@ -44,7 +46,7 @@ ros::MessageTemplate odometryTemplate(const std::string& frame, const std::strin
   message.child_frame_id = child;
   const auto& [position, orientation] = message.pose.pose;
   const auto& [linear, angular] = message.twist.twist;
-  return stamped(message, position.x, position.y, orientation.z, orientation.w, linear.x, angular.z);
+  return stamped(message, position.x, position.y, orientation.z, orientation.w, linear.x, angular.z, linear.y);
 }
 
 void setPose(ros::MessageTemplate& odometry, const mrpt::math::TPose2D& pose) {

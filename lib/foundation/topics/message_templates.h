@@ -7,6 +7,7 @@
 #include "hardware/sensor_info.h"
 #include "ros/message_template.h"
 #include "ros/messages.h"
+#include "topics/robot_topics.h"
 
 namespace robosim {
 
@@ -22,6 +23,7 @@ enum TemplateField : std::size_t {
   kRotationW,
   kSpeed,
   kTurn,
+  kLateral,
 };
 
 /// @name Messages in which all is set but the stamp and the fields named
@@ -30,7 +32,7 @@ enum TemplateField : std::size_t {
 /// Field: the ranges.
 ros::MessageTemplate scanTemplate(const SensorInfo& sensor, const ScanGeometry& geometry, const std::string& frame);
 /// Field: the range.
-ros::MessageTemplate rangeTemplate(const SensorInfo& sensor, const std::string& frame);
+ros::MessageTemplate rangeTemplate(const SensorInfo& sensor, const std::string& frame, RosDistribution distribution);
 /// Fields: number of points, and of their bytes. It has no points: these, after their number of bytes (32 bits),
 /// replace the last five bytes but the very last.
 ros::MessageTemplate cloudTemplate(const std::string& frame);
@@ -43,7 +45,7 @@ ros::MessageTemplate temperatureTemplate(const std::string& frame);
 ros::MessageTemplate batteryTemplate(const std::string& frame);
 /// Fields: z and w of the orientation.
 ros::MessageTemplate compassTemplate(const std::string& frame);
-/// Fields: from kX to kTurn.
+/// Fields: from kX to kLateral.
 ros::MessageTemplate odometryTemplate(const std::string& frame, const std::string& child);
 ///@}
 

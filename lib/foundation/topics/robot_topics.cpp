@@ -8,7 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hardware/camera_head.h"
+#include "hardware/gnss_fix.h"
+#include "hardware/inertial_reading.h"
 #include "hardware/measurement_fields.h"
+#include "hardware/picture_file.h"
 #include "hardware/scan_geometry.h"
 #include "topics/message_templates.h"
 #include "topics/sensor_topics.h"
@@ -29,6 +33,13 @@ ros::TransformStamped transformOf(const std::string& parent, const std::string& 
   return {{stamp, parent}, child, {{pose.x, pose.y, pose.z}, rotationOf(pose.yaw, pose.pitch, pose.roll)}};
 }
 
+/// Of the messages of a sensor of SensorKind::values; other kinds of this type are arrays, too.
+const ros::MessageType& typeOfValues(const SensorInfo& sensor) {
+  if (GnssFix::isOf(sensor)) return ros::typeOf<ros::NavSatFix>();
+  if (InertialReading::isOf(sensor)) return ros::typeOf<ros::Imu>();
+  return ros::typeOf<ros::Float64MultiArray>();
+}
+
 /// By REP 117.
 float rangeOf(const SensorInfo& sensor, float range_m) {
   if (range_m >= static_cast<float>(sensor.no_echo_m)) return kInfinite;
@@ -40,6 +51,10 @@ std::string joined(const auto& names, const auto& text) {
   std::string all;
   for (const auto& name : names) all += (all.empty() ? "" : ",") + text(name);
   return all;
+}
+
+const ros::MessageType& rangeType(RosDistribution distribution) {
+  return distribution == RosDistribution::humble ? ros::typeOf<ros::HumbleRange>() : ros::typeOf<ros::Range>();
 }
 
 /// A one-dimensional array.
@@ -76,20 +91,21 @@ TopicMessage staticTransforms(std::span<const RobotTopics> robots, std::uint64_t
                       message);
 }
 
-RobotTopics::RobotTopics(const RobotInfo& robot, FrameNames frames)
-    : name_(topicNamePart(robot.name)),
-      frame_prefix_(frames == FrameNames::prefixed ? name_ + "/" : ""),
+RobotTopics::RobotTopics(const RobotInfo& robot, const TopicForm& form)
+    : distribution_(form.distribution),
+      name_(topicNamePart(robot.name)),
+      frame_prefix_(form.frames == FrameNames::prefixed ? name_ + "/" : ""),
       base_frame_(frame_prefix_ + "base_link"),
       odom_frame_(frame_prefix_ + "odom"),
       sensors_(robot.sensors) {
-  const std::string tree = frames == FrameNames::prefixed ? "" : "/" + name_;
+  const std::string tree = form.frames == FrameNames::prefixed ? "" : "/" + name_;
   topics_.push_back({tree + "/tf", &ros::typeOf<ros::TFMessage>(), TopicDelivery::transforms});
   static_ = {tree + "/tf_static", &ros::typeOf<ros::TFMessage>(), TopicDelivery::latched};
   truth_ = addTopic("ground_truth", ros::typeOf<ros::Odometry>(), TopicDelivery::steady);
   truth_message_ = odometryTemplate("map", base_frame_);
   command_ = addTopic("cmd_vel", ros::typeOf<ros::Twist>(), TopicDelivery::steady);
   const ros::Twist command;
-  command_message_ = ros::MessageTemplate(command, command.linear.x, command.angular.z);
+  command_message_ = ros::MessageTemplate(command, command.linear.x, command.angular.z, command.linear.y);
   inbox_ = addTopic("messages", ros::typeOf<ros::String>(), TopicDelivery::steady);
   for (const auto& sensor : *sensors_) addSensor(sensor);
 }
@@ -113,11 +129,12 @@ void RobotTopics::addRangeSensor(const SensorInfo& sensor, const std::string& pa
     made.of_topic.push_back(scanTemplate(sensor, *geometry, made.frame));
     return;
   }
-  for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
+  const std::size_t ranges = sensor.kind == SensorKind::lidar ? 0 : sensor.beams.size();
+  for (std::size_t i = 0; i < ranges; ++i) {
     const std::string number = std::to_string(i);
-    addTopic(part + "/range_" + number, ros::typeOf<ros::Range>(), TopicDelivery::sensor);
+    addTopic(part + "/range_" + number, rangeType(distribution_), TopicDelivery::sensor);
     const std::string frame = made.frame + "_" + number;
-    made.of_topic.push_back(rangeTemplate(sensor, frame));
+    made.of_topic.push_back(rangeTemplate(sensor, frame, distribution_));
     made.frames_of_beams.push_back(frame);
     if (!sensor.pans) addMount(frame, sensor.beams[i].robot_from_beam);
   }
@@ -134,6 +151,7 @@ void RobotTopics::addSensor(const SensorInfo& sensor) {
   switch (sensor.kind) {
     case SensorKind::sonar:
     case SensorKind::laser:
+    case SensorKind::lidar:
     case SensorKind::infrared:
       addRangeSensor(sensor, part, made);
       break;
@@ -158,6 +176,11 @@ void RobotTopics::addSensor(const SensorInfo& sensor) {
       made.frame += "_optical";
       made.of_topic.push_back(pictureTemplate(made.frame));
       made.of_topic.push_back(cameraTemplate(sensor.camera, made.frame));
+      for (const auto& [is_there, layer] :
+           {std::pair(sensor.camera.layers.depth, "depth"), {sensor.camera.layers.identity, "identity"}}) {
+        if (is_there) addTopic(part + '/' + layer + "/image_raw", ros::typeOf<ros::Image>(), TopicDelivery::sensor);
+      }
+      if (sensor.pans) break;
       addMount(made.frame, made.robot_from_frame);
       auto& rotation = mounts_.back().transform.rotation;
       rotation = product(rotation, kOpticalRotation);
@@ -170,12 +193,13 @@ void RobotTopics::addSensor(const SensorInfo& sensor) {
     case SensorKind::blob_finder:
     case SensorKind::beacons:
     case SensorKind::values:
-      addTopic(part, ros::typeOf<ros::Float64MultiArray>(), TopicDelivery::sensor);
+      addTopic(part, typeOfValues(sensor), TopicDelivery::sensor);
       break;
     case SensorKind::unknown:
       break;
   }
-  const bool has_frame = made.scan_size > 0 || sensor.kind == SensorKind::heat;
+  const bool has_frame = made.scan_size > 0 || sensor.kind == SensorKind::heat || GnssFix::isOf(sensor);
+  if (InertialReading::isOf(sensor)) made.frame = base_frame_;  // it is in the middle
   if (has_frame && !sensor.pans) addMount(made.frame, made.robot_from_frame);
   of_sensor_.push_back(std::move(made));
 }
@@ -186,6 +210,7 @@ struct RobotTopics::Encoder {
   TopicSink& sink;
   ros::Time stamp;
   double pan_rad;
+  const std::vector<Measurement>& measurements;
   const SensorInfo* sensor = nullptr;
   SensorMessages* made = nullptr;
 
@@ -207,19 +232,21 @@ struct RobotTopics::Encoder {
 
   void operator()(const Echoes& echoes) {
     if (made->scan_size > 0) return putScan(echoes);
-    const std::size_t count = std::min(echoes.size(), made->frames_of_beams.size());
+    const std::size_t ranges = made->frames_of_beams.size();  // none of a lidar
     auto& points = robot.points_;
     points.clear();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
       const float range_m = rangeOf(*sensor, echoes[i].range_m);
-      made->of_topic[i].set(kFirst, range_m);
-      put(made->topic + i, made->of_topic[i]);
-      if (sensor->pans) addMoved(i, panned(sensor->beams[i].robot_from_beam, pan_rad));
+      if (i < ranges) {
+        made->of_topic[i].set(kFirst, range_m);
+        put(made->topic + i, made->of_topic[i]);
+        if (sensor->pans) addMoved(i, panned(sensor->beams[i].robot_from_beam, pan_rad));
+      }
       if (range_m == kInfinite) continue;
       const auto& point = echoes[i].point_m;
       points.insert(points.end(), {point.x, point.y, point.z});
     }
-    putPoints(made->topic + made->frames_of_beams.size(), made->of_topic.back(), std::span(points));
+    putPoints(made->topic + ranges, made->of_topic.back(), std::span(points));
   }
   void operator()(const Scalar& scalar) {
     if (made->of_topic.empty()) return;
@@ -246,6 +273,7 @@ struct RobotTopics::Encoder {
     setPose(message, pose);
     message.set(kSpeed, measured.speed_mps);
     message.set(kTurn, measured.turn_radps);
+    message.set(kLateral, measured.lateral_mps);
     put(made->topic, message);
     addMoved(0, {pose.x, pose.y, 0, pose.phi, 0, 0});
   }
@@ -255,8 +283,17 @@ struct RobotTopics::Encoder {
       const auto beginning = made->of_topic[0].bytes();
       auto& bytes = sink.beginMessage(made->topic);
       bytes.insert(bytes.end(), beginning.begin(), beginning.end() - sizeof(std::uint32_t));
-      appendSized(bytes, std::as_bytes(std::span(image.jpeg)));
+      const std::string encoded = image.raw ? jpegOf(image) : "";
+      appendSized(bytes, std::as_bytes(std::span(image.raw ? encoded : image.jpeg)));
       sink.endMessage();
+    }
+    std::size_t topic = made->topic + 2;
+    if (sensor->camera.layers.depth) putDepths(topic++, image);
+    if (sensor->camera.layers.identity) putIdentities(topic, image);
+    if (const auto aim = aimOf(*sensor, *robot.sensors_, measurements)) {
+      made->of_topic[1] = cameraTemplate(zoomed(sensor->camera, aim->zoom), made->frame);
+      const TPose3D pose = aimed(made->robot_from_frame, *aim);
+      addMoved(0, pose, product(rotationOf(pose.yaw, pose.pitch, pose.roll), kOpticalRotation));
     }
     put(made->topic + 1, made->of_topic[1]);
   }
@@ -282,6 +319,8 @@ struct RobotTopics::Encoder {
   }
   void operator()(const Values& values) {
     if (sensor->kind == SensorKind::unknown) return;
+    if (GnssFix::isOf(*sensor)) return put(made->topic, navSatFix(GnssFix::from(values)));
+    if (InertialReading::isOf(*sensor)) return put(made->topic, imu(InertialReading::from(values)));
     putArray(std::span(values.values), [&] {
       const std::string names = joined(sensor->quantities, [](const Quantity& quantity) {
         return quantity.unit.empty() ? quantity.name : quantity.name + " [" + quantity.unit + "]";
@@ -291,6 +330,30 @@ struct RobotTopics::Encoder {
   }
 
  private:
+  /// By REP 118: metres, infinite beyond the range.
+  void putDepths(std::size_t topic, const Image& image) {
+    if (!sink.wants(topic) || !image.raw) return;
+    std::vector<float> depths = image.raw->depth_m;
+    std::replace(depths.begin(), depths.end(), 0.f, kInfinite);
+    put(topic, pixels(*image.raw, "32FC1", std::as_bytes(std::span(depths))));
+  }
+  void putIdentities(std::size_t topic, const Image& image) {
+    if (!sink.wants(topic) || !image.raw) return;
+    put(topic, pixels(*image.raw, "32SC1", std::as_bytes(std::span(image.raw->identity))));
+  }
+  /// @param values of four bytes each
+  ros::Image pixels(const RawPicture& raw, const char* encoding, std::span<const std::byte> values) const {
+    ros::Image message;
+    message.header = {stamp, made->frame};
+    message.height = raw.height_px;
+    message.width = raw.width_px;
+    message.encoding = encoding;
+    message.step = raw.width_px * 4;
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(values.data());
+    message.data.assign(first, first + values.size());
+    return message;
+  }
+
   void putScan(const Echoes& echoes) {
     ros::MessageTemplate& message = made->of_topic[0];
     const std::size_t count = std::min(echoes.size(), made->scan_size);
@@ -312,6 +375,24 @@ struct RobotTopics::Encoder {
     appendSized(bytes, std::as_bytes(xyz));
     bytes.push_back(all.back());
     sink.endMessage();
+  }
+
+  ros::NavSatFix navSatFix(const GnssFix& fix) const {
+    ros::NavSatFix message;
+    message.header = {stamp, made->frame};
+    message.status.status = fix.is_valid ? ros::NavSatStatus::kFix : ros::NavSatStatus::kNoFix;
+    message.latitude = fix.latitude_deg;
+    message.longitude = fix.longitude_deg;
+    message.altitude = fix.altitude_m;
+    return message;
+  }
+  ros::Imu imu(const InertialReading& reading) const {
+    ros::Imu message;
+    message.header = {stamp, made->frame};
+    message.orientation_covariance[0] = -1;  // not measured
+    message.angular_velocity.z = reading.turn_radps;
+    message.linear_acceleration = {reading.ahead_mps2, reading.left_mps2, reading.up_mps2};
+    return message;
   }
 
   /// @param make the message, when the number of values is another one than before
@@ -336,7 +417,9 @@ struct RobotTopics::Encoder {
   }
 
   void addMoved(std::size_t beam, const TPose3D& pose) {
-    const ros::Quaternion rotation = rotationOf(pose.yaw, pose.pitch, pose.roll);
+    addMoved(beam, pose, rotationOf(pose.yaw, pose.pitch, pose.roll));
+  }
+  void addMoved(std::size_t beam, const TPose3D& pose, const ros::Quaternion& rotation) {
     robot.moved_.push_back({static_cast<std::size_t>(made - robot.of_sensor_.data()),
                             beam,
                             {pose.x, pose.y, pose.z, rotation.x, rotation.y, rotation.z, rotation.w}});
@@ -366,10 +449,11 @@ void RobotTopics::makeTransformMessage() {
   }
 }
 
-void RobotTopics::write(const Readings& readings, const std::optional<TPose2D>& world_from_robot,
+void RobotTopics::write(const Readings& readings, const std::optional<RobotTruth>& truth,
                         const std::optional<Command>& command, std::span<const std::uint8_t> kept, TopicSink& sink) {
   moved_.clear();
-  Encoder encoder{*this, sink, timeOf(nanosecondsOf(readings.time.seconds())), readings.laser_pan_rad};
+  Encoder encoder{*this, sink, timeOf(nanosecondsOf(readings.time.seconds())), readings.laser_pan_rad,
+                  readings.measurements};
   for (std::size_t i = 0; i < readings.measurements.size(); ++i) {
     if (i < kept.size() && kept[i]) continue;
     const Measurement& measurement = readings.measurements[i];
@@ -378,13 +462,17 @@ void RobotTopics::write(const Readings& readings, const std::optional<TPose2D>& 
     encoder.made = &of_sensor_[i];
     std::visit(encoder, measurement);
   }
-  if (world_from_robot) {
-    setPose(truth_message_, *world_from_robot);
+  if (truth) {
+    setPose(truth_message_, truth->world_from_robot);
+    truth_message_.set(kSpeed, truth->velocity.speed_mps);
+    truth_message_.set(kTurn, truth->velocity.turn_radps);
+    truth_message_.set(kLateral, truth->velocity.lateral_mps);
     encoder.put(truth_, truth_message_);
   }
   if (command && sink.wants(command_)) {
     command_message_.set(0, double{command->speed_mps});
     command_message_.set(1, double{command->turn_radps});
+    command_message_.set(2, double{command->lateral_mps});
     sink.put(command_, command_message_.bytes());
   }
   for (const auto& message : readings.inbox) {

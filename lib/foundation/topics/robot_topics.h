@@ -10,9 +10,11 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/TPose3D.h>
 
+#include "base/ros_distribution.h"
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
+#include "hardware/robot_velocity.h"
 #include "ros/message_template.h"
 #include "topics/topic.h"
 
@@ -42,11 +44,23 @@ enum class FrameNames {
   plain,     ///< "odom", in a tree for each robot on /<robot>/tf and /<robot>/tf_static, as Nav2 expects it
 };
 
+/// The form of the topics of robots.
+struct TopicForm {
+  FrameNames frames = FrameNames::prefixed;
+  RosDistribution distribution = RosDistribution::jazzy;
+};
+
+/// What is true of a robot, and no sensor measures.
+struct RobotTruth {
+  mrpt::math::TPose2D world_from_robot;
+  RobotVelocity velocity;
+};
+
 /// The topics of a robot, below "/<robot>/", and their messages of a step (doc/ros2.md). Frames are "<robot>/odom",
 /// "<robot>/base_link" and "<robot>/<sensor>" (REP 105), or without the prefix; ranges follow REP 117.
 class RobotTopics {
  public:
-  explicit RobotTopics(const RobotInfo& robot, FrameNames frames = FrameNames::prefixed);
+  explicit RobotTopics(const RobotInfo& robot, const TopicForm& form = {});
 
   const std::vector<Topic>& topics() const { return topics_; }
   /// Poses of the sensors that do not pan in the robot's frame, for /tf_static.
@@ -58,8 +72,8 @@ class RobotTopics {
 
   /// Passes the messages of a step to the sink; none of a sensor that keeps its reading.
   /// @param kept by sensor: whether it does; of no sensor beyond its end
-  void write(const Readings& readings, const std::optional<mrpt::math::TPose2D>& world_from_robot,
-             const std::optional<Command>& command, std::span<const std::uint8_t> kept, TopicSink& sink);
+  void write(const Readings& readings, const std::optional<RobotTruth>& truth, const std::optional<Command>& command,
+             std::span<const std::uint8_t> kept, TopicSink& sink);
 
  private:
   /// The messages of a sensor.
@@ -86,6 +100,7 @@ class RobotTopics {
   void addMount(const std::string& frame, const mrpt::math::TPose3D& pose);
   void makeTransformMessage();
 
+  RosDistribution distribution_;
   std::string name_, frame_prefix_, base_frame_, odom_frame_;
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
   std::vector<Topic> topics_;

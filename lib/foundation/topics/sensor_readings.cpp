@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hardware/gnss_fix.h"
+#include "hardware/inertial_reading.h"
 #include "hardware/scan_geometry.h"
 #include "ros/cdr.h"
 #include "topics/robot_topics.h"
@@ -32,7 +34,7 @@ struct Reading {
 
   void operator()(Echoes& echoes) const {
     if (sensor.kind != SensorKind::laser || !toScanGeometry(sensor.beams)) {
-      echoes.at(beam) = echoOf(sensor, beam, ros::decode<ros::Range>(message).range);
+      echoes.at(beam) = echoOf(sensor, beam, ros::decode<ros::HumbleRange>(message).range);
       return;
     }
     const auto scan = ros::decode<ros::LaserScan>(message);
@@ -63,7 +65,8 @@ struct Reading {
     const auto& pose = read.pose.pose;
     odometry = {{pose.position.x, pose.position.y, yawOf(pose.orientation)},
                 read.twist.twist.linear.x,
-                read.twist.twist.angular.z};
+                read.twist.twist.angular.z,
+                read.twist.twist.linear.y};
   }
   void operator()(Image& image) const {
     const auto picture = ros::decode<ros::CompressedImage>(message);
@@ -72,6 +75,18 @@ struct Reading {
       throw std::runtime_error("a picture in the format '" + picture.format + "': " + fault);
     }
     image.jpeg = std::move(jpeg);
+  }
+  void operator()(Values& values) const {
+    if (GnssFix::isOf(sensor)) {
+      const auto fix = ros::decode<ros::NavSatFix>(message);
+      values = fix.status.status < ros::NavSatStatus::kFix
+                   ? GnssFix{}.values()
+                   : GnssFix{true, fix.latitude, fix.longitude, fix.altitude}.values();
+    } else if (InertialReading::isOf(sensor)) {
+      const auto imu = ros::decode<ros::Imu>(message);
+      const auto& force = imu.linear_acceleration;
+      values = InertialReading{imu.angular_velocity.z, force.x, force.y, force.z}.values();
+    }
   }
   void operator()(auto&) const {}  // no topics
 };
@@ -104,9 +119,13 @@ std::vector<SensorSource> sourcesOf(const SensorInfo& sensor) {
       return {{part + "/image_raw/compressed", &ros::typeOf<ros::CompressedImage>()}};
     case SensorKind::battery:
       return {{part, &ros::typeOf<ros::BatteryState>()}};
+    case SensorKind::values:
+      if (GnssFix::isOf(sensor)) return {{part, &ros::typeOf<ros::NavSatFix>()}};
+      if (InertialReading::isOf(sensor)) return {{part, &ros::typeOf<ros::Imu>()}};
+      break;
+    case SensorKind::lidar:  // a cloud has no beams
     case SensorKind::blob_finder:
     case SensorKind::beacons:
-    case SensorKind::values:
     case SensorKind::unknown:
       break;
   }

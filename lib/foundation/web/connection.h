@@ -63,6 +63,7 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   std::uint64_t number() const { return number_; }   ///< AcceptedConnection::number
   const std::string& peer() const { return peer_; }  ///< address
   bool isDisconnecting() const { return is_disconnecting_; }
+  bool isSending() const { return is_writing_; }
   PageId page() const { return page_; }  ///< 0 as long as there is no WebSocket
 
  private:

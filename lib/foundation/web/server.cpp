@@ -273,6 +273,11 @@ void WebServer::wake(PageId page) {
   if (const auto connection = impl_->find(page)) connection->wake();
 }
 
+bool WebServer::isSending() const {
+  return std::any_of(impl_->pages.begin(), impl_->pages.end(),
+                     [](const auto& page) { return page.second->isSending(); });
+}
+
 void WebServer::disconnect(PageId page, const std::string& why) {
   if (const auto connection = impl_->find(page)) connection->disconnect(why);
 }

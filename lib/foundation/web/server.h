@@ -83,6 +83,8 @@ class WebServer {
   /// @name In the server's thread. No effect for pages that are no longer connected
   ///@{
   void wake(PageId page);  ///< a message may be available
+  /// Whether a message is being written to a page.
+  bool isSending() const;
   /// Disconnects a page after its pending messages have been sent.
   void disconnect(PageId page, const std::string& why);
   ///@}

@@ -17,8 +17,14 @@ Path HeldObject::pathOf(const Path& of_robot) const {
   Path path = of_robot;
   const auto start = poseAt(of_robot.world_from_start);
   // The velocity of the point in the robot's frame is constant: (v - ω·y, ω·x).
-  const double ahead_m = of_robot.length_m - of_robot.turn_rad * robot_from_object.y;
-  const double aside_m = of_robot.turn_rad * robot_from_object.x;
+  double ahead_m = of_robot.length_m - of_robot.turn_rad * robot_from_object.y;
+  double aside_m = of_robot.turn_rad * robot_from_object.x;
+  if (of_robot.direction_rad != 0) {
+    const auto [sin, cos] = portable::sincos(of_robot.direction_rad);
+    ahead_m += of_robot.length_m * (cos - 1);
+    aside_m += of_robot.length_m * sin;
+    path.direction_rad = 0;
+  }
   path.world_from_start = {start.x, start.y, of_robot.world_from_start.phi + portable::atan2(aside_m, ahead_m)};
   path.length_m = portable::hypot(ahead_m, aside_m);
   return path;

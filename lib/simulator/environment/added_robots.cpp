@@ -19,11 +19,13 @@ void Environment::Impl::useModel(std::shared_ptr<const Model> other) {
   move_authorisation = MoveAuthorisation(ofRobots(fleet(), moverOf), model->world.bounds);
   object_mover = moverOfObjects();
   message_router.setRobots(ofRobots(fleet(), nameOf));
-  robot_groups = RobotGroups(fleet(), model->period_s);
+  robot_groups = RobotGroups(fleet(), model->period_s, is_sensed);
   limits = ofRobots(fleet(), limitsOf);
+  drives = drivesOf(fleet());
   known = KnownRobots(count);
   counted = everyRobot();
   paths.assign(count, Path());
+  former_motion = formerMotionOf(fleet());
   antenna_z_m = ofRobots(fleet(), antennaOf);
   noteGrippers();
   if (!is_shared) share = {everyRobot(), everyRobot()};

@@ -86,6 +86,12 @@ void Environment::measure(const Sensor& sensor, std::span<const std::uint32_t> r
   impl_->measure(sensor, robots, readings);
 }
 
+void Environment::senseOnly(IsSensed is_sensed) {
+  if (impl_->state.digest) throw std::invalid_argument("a run with a digest computes all its sensors");
+  impl_->is_sensed = std::move(is_sensed);
+  impl_->robot_groups = RobotGroups(fleet(), model()->period_s, impl_->is_sensed);
+}
+
 StepPhases Environment::phases() { return StepPhases(*impl_); }
 
 void Environment::step() {

@@ -11,6 +11,7 @@
 #include "base/parallel_executor.h"
 #include "base/sim_time.h"
 #include "environment/model.h"
+#include "environment/robot_groups.h"
 #include "environment/robot_range.h"
 #include "environment/state.h"
 #include "geometry/scene.h"
@@ -142,6 +143,11 @@ class Environment {
   /// @param robots in ascending order @param readings by robot: replaces measurement 0, which must be a previous one of
   /// this sensor or Sensor::blank()
   void measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings);
+
+  /// Computes only the sensors of which `is_sensed` is true from now on, also of robots that are added; the readings
+  /// of the others stay as they are. Sensors do not affect each other but for a blob finder, which requires its camera.
+  /// @throws std::invalid_argument if the state has a digest, which depends on all readings
+  void senseOnly(IsSensed is_sensed);
 
   void step();
 

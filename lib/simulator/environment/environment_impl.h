@@ -16,7 +16,8 @@
 #include "environment/referee.h"
 #include "environment/robot_groups.h"
 #include "environment/run_digest.h"
-#include "robots/differential_drive.h"
+#include "hardware/led_color.h"
+#include "robots/drive_kinematics.h"
 
 namespace robosim {
 
@@ -41,7 +42,20 @@ struct Environment::Impl {
   }
   static std::string nameOf(const FleetRobot& robot) { return robot.info.name; }
   static MotionLimits limitsOf(const FleetRobot& robot) { return robot.info.limits; }
+  /// By robot; empty if all robots have a differential drive.
+  static std::vector<Drive> drivesOf(const Fleet& fleet) {
+    if (!hasOtherDrives(fleet)) return {};
+    return ofRobots(fleet, [](const FleetRobot& robot) { return robot.info.drive; });
+  }
   static double antennaOf(const FleetRobot& robot) { return robot.body.heights().z_max_m; }
+  /// Memory for the motion of the step before the last; empty if no sensor uses it.
+  static std::vector<Motion> formerMotionOf(const Fleet& fleet) {
+    const auto uses_it = [](const auto& sensor) { return sensor->usesFormerMotion(); };
+    const bool is_used = std::any_of(fleet.robots.begin(), fleet.robots.end(), [&](const FleetRobot& robot) {
+      return std::any_of(robot.model->sensors.begin(), robot.model->sensors.end(), uses_it);
+    });
+    return std::vector<Motion>(is_used ? fleet.robots.size() : 0);
+  }
   static double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
 
   std::shared_ptr<const Model> model;
@@ -67,12 +81,15 @@ struct Environment::Impl {
   std::vector<HeldObject> held;       ///< of State::closed_grippers
   std::vector<std::uint32_t> robots_with_gripper;
   MessageRouter message_router;
+  IsSensed is_sensed;  ///< null: all sensors are computed
   RobotGroups robot_groups;
   std::vector<MotionLimits> limits;  ///< by robot
+  std::vector<Drive> drives;         ///< drivesOf() the fleet
   KnownRobots known;
   RobotRange counted;  ///< known robots whose stalls are counted
   std::vector<Path> paths;
-  std::vector<double> antenna_z_m;  ///< by robot
+  std::vector<Motion> former_motion;  ///< Snapshot::former_motion
+  std::vector<double> antenna_z_m;    ///< by robot
   std::uint64_t pose_changes = 0;
   bool has_absent_robots = false;
   bool may_have_messages = true;       ///< in any inbox; false: only in those of MessageRouter::receivers()
@@ -95,9 +112,11 @@ struct Environment::Impl {
         message_router(ofRobots(fleet(), nameOf), model->world.communication),
         robot_groups(fleet(), model->period_s),
         limits(ofRobots(fleet(), limitsOf)),
+        drives(drivesOf(fleet())),
         known(fleet().robots.size()),
         counted(everyRobot()),
         paths(fleet().robots.size()),
+        former_motion(formerMotionOf(fleet())),
         antenna_z_m(ofRobots(fleet(), antennaOf)),
         share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
     noteGrippers();
@@ -203,6 +222,7 @@ struct Environment::Impl {
       command.activity = state.activity[i];
       state.laser_pan_rad[i] =
           std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2));
+      if (hasOtherDrive(i)) return driveOtherwise(i);
       const DriveSpeeds speeds =
           reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, command, limits[i], model->period_s);
       state.speed_mps[i] = speeds.speed_mps;
@@ -212,15 +232,30 @@ struct Environment::Impl {
     for (const auto& object : held) paths[object.robot].turn_stops = true;
   }
 
+  bool hasOtherDrive(std::size_t robot) const {
+    return !drives.empty() && drives[robot].kind != DriveKind::differential;
+  }
+  /// @name Robots whose drive is not differential (other_drives.cpp)
+  ///@{
+  DriveMotion motionOf(std::size_t robot) const;
+  void setMotion(std::size_t robot, const DriveMotion& motion);
+  /// takeCommands() of a robot.
+  void driveOtherwise(std::size_t robot);
+  /// move() of a robot that has moved along its path.
+  void noteOtherMotion(std::size_t robot);
+  ///@}
+
   void move() {
     move_authorisation.conclude(workers, known, paths, state.stalled);
     if (!motions.empty()) moveObjects();
     known.forEach(workers, kRobotChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
+      if (!former_motion.empty()) former_motion[i] = state.last_motion[i];
       state.last_motion[i] = {path.clippedLength(), path.clippedTurn()};
       state.driven_m[i] += std::abs(path.clippedLength());
       if (state.stalled[i]) state.speed_mps[i] = 0;  // blocked: starts from rest in the next step
+      if (hasOtherDrive(i)) noteOtherMotion(i);
     });
     for (const auto& object : held) {
       if (state.stalled[object.robot]) state.turn_radps[object.robot] = 0;
@@ -246,25 +281,28 @@ struct Environment::Impl {
     return kept;
   }
 
+  Snapshot snapshot() const {
+    Snapshot now = bodies.snapshot(state, paths, images);
+    now.former_motion = former_motion;
+    return now;
+  }
+
   void sense(RobotRange range, SensorGroup which) {
-    const Snapshot now = bodies.snapshot(state, paths, images);
+    const Snapshot now = snapshot();
     for (const RobotGroup& group : robot_groups.groups) {
+      const auto& slots = which == SensorGroup::in_host_process ? group.host_slots : group.slots;
       const auto of_group = group.within(range);
       workers.forChunks(of_group.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> kept;
         const auto robots = presentOf(of_group.subspan(begin, end - begin), kept);
         for (const auto i : robots) scene.updateNeighbours(i, group.reach_m);
-        for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
-          const Sensor& sensor = *group.model->sensors[slot];
-          if (sensor.sensesInHostProcess() != (which == SensorGroup::in_host_process)) continue;
-          sensor.sense(now, robots, slot, state.readings);
-        }
+        for (const auto slot : slots) group.model->sensors[slot]->sense(now, robots, slot, state.readings);
       });
     }
   }
 
   void measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings) {
-    const Snapshot now = bodies.snapshot(state, paths, images);
+    const Snapshot now = snapshot();
     const double sensor_reach_m = reachOf(sensor) + kContactGap_m;
     workers.forChunks(robots.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -415,7 +453,10 @@ struct Environment::Impl {
     kept = command;
     kept.speed_mps = finiteOrZero(command.speed_mps);
     kept.turn_radps = finiteOrZero(command.turn_radps);
+    kept.lateral_mps = finiteOrZero(command.lateral_mps);
     if (!std::isfinite(command.laser_pan_rad)) kept.laser_pan_rad = 0;
+    kept.led_color &= kLedColorMax;
+    if (!command.camera_head.isFinite()) kept.camera_head = {};
   }
 
   void restore(const State& saved) {

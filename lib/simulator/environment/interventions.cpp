@@ -186,6 +186,7 @@ struct Environment::Impl::ApplyChange {
     const bool is_on_surface = object.movable || object.walker ? surface.covers(boundsOf(object.body.solid().outline))
                                                                : surface.contains({pose.x, pose.y});
     if (!is_on_surface) return notOnSurface(object.name);
+    if (object.body.isFloor() && !object.conveyor) return {};  // areas of the floor are painted over one another
     // Doors may be in walls.
     const auto among = object.door ? PlacedBodies::Among::moving : PlacedBodies::Among::all;
     return overlapFault(object.name, object.body.solid(), own, among);

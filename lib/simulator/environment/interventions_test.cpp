@@ -196,7 +196,7 @@ TEST(Interventions, AreRefusedWithTheReasonAndWithoutAnEffect) {
        "<activity value=\"absent\">: is unknown; accepted are: active, halted, found"},
       {ChangeActivity{"wall0"}, "'wall0' is an object; name a robot"},
       {ChangeObject{"first", 1}, "'first' is a robot, whose body stays as its type describes it; name an object"},
-      {ChangeObject{"wall0"}, "<change>: changes nothing; give hot, color, height or reflectivity"},
+      {ChangeObject{"wall0"}, "<change>: changes nothing; give hot, color, height, reflectivity, light or fiducial"},
       {ChangeObject{.name = "wall0", .height_m = 0}, "<change height=\"0\">: must be above 0; write a number there"},
       {EndRun{""}, "<end outcome=\"\">: is empty; write a word there"},
   };

@@ -11,13 +11,16 @@ namespace robosim {
 class LocalHardware : public Hardware, public RefereeLink {
  public:
   LocalHardware(Environment& environment, std::size_t robot)
-      : environment_(environment), robot_(robot), info_(environment.fleet().robots[robot].info) {}
+      : environment_(environment),
+        state_(environment.state()),
+        robot_(robot),
+        info_(environment.fleet().robots[robot].info) {}
 
   const RobotInfo& info() const override { return info_; }
   const std::vector<std::string>& robots() const override { return environment_.robotNames(); }
-  const Readings& readings() const override { return environment_.state().readings[robot_]; }
+  const Readings& readings() const override { return state_.readings[robot_]; }
   void command(const Command& command) override { environment_.setCommand(robot_, command); }
-  const Command& lastCommand() const override { return environment_.state().commands[robot_]; }
+  const Command& lastCommand() const override { return state_.commands[robot_]; }
   void send(const std::string& to, const std::string& text) override { environment_.send(robot_, to, text); }
   void broadcast(const std::string& text) override { environment_.broadcast(robot_, text); }
   RefereeLink* referee() override { return this; }
@@ -25,8 +28,10 @@ class LocalHardware : public Hardware, public RefereeLink {
 
  private:
   Environment& environment_;
+  // Kept, because controllers ask for them many times in a step.
+  const State& state_;
   std::size_t robot_;
-  const RobotInfo& info_;  ///< kept, because controllers ask for it many times in a step
+  const RobotInfo& info_;
 };
 
 }  // namespace robosim

@@ -22,7 +22,8 @@ void add(Digest& digest, const mrpt::math::TPose2D& pose) {
 // left out because no run depends on it.
 
 void add(Digest& digest, const Body& body) {
-  const auto& [shape, world_from_body, center_z_m, height_m, color, heat_celsius, reflectivity] = body;
+  const auto& [shape, world_from_body, center_z_m, height_m, color, heat_celsius, reflectivity, light_cd, fiducial] =
+      body;
   digest.add(shape.index());
   if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
     const auto& [radius_m] = *cylinder;
@@ -35,6 +36,12 @@ void add(Digest& digest, const Body& body) {
   add(digest, world_from_body);
   for (const double value : {center_z_m, height_m, heat_celsius, reflectivity}) digest.add(value);
   for (const float value : color) digest.add(value);
+  // Nothing is added for most bodies.
+  static_assert(kBodyProperties.size() == 2);
+  if (light_cd != 0 || fiducial != 0) {
+    digest.add(light_cd);
+    digest.add(fiducial);
+  }
 }
 
 void add(Digest& digest, const Solid& solid) {
@@ -77,8 +84,8 @@ void add(Digest& digest, const WorldObject& object) {
 void add(Digest& digest, const World& world) {
   // Without effect on a run: names, the type of the surface, the origin, and the distance of random starts. The robots
   // are in the fleet, which has those of scatters, too, and the starts; of maps, the solids have an effect.
-  const auto& [name, surface_type, unit_m, bounds, communication, win_distance_m, start_distance_m, objects, maps,
-               robots, scatters, timeline, origin] = world;
+  const auto& [name, surface_type, unit_m, bounds, communication, win_distance_m, start_distance_m, georeference,
+               objects, maps, robots, scatters, timeline, origin] = world;
   const auto& [range_m, loss_probability, wall_range_m, wall_loss, burst_gap_s, burst_s, burst_loss, delay_s, rate_hz] =
       communication;
   for (const double value : {unit_m, bounds.x_min, bounds.x_max, bounds.y_min, bounds.y_max, range_m.value_or(-1),
@@ -91,9 +98,22 @@ void add(Digest& digest, const World& world) {
   digest.add(objects.size());
   for (const auto& object : objects) add(digest, object);
   for (const auto& solid : startSolids(world)) add(digest, solid);
+  for (const auto& map : maps) {
+    if (!map.isFloor()) continue;
+    std::vector<Solid> painted;
+    addSolids(map.plan, map.world_from_map, map.heights(), painted);
+    for (const auto& solid : painted) add(digest, solid);
+    for (const float value : map.color) digest.add(value);
+  }
   for (const auto& timed : timeline) {
     digest.add(timed.time_s);
     add(digest, changeText(timed.change));
+  }
+  // That of a map, too; without one, digests are those of worlds before there were georeferences.
+  if (const auto reference = georeferenceOf(world)) {
+    const auto& [position, pose] = *reference;
+    for (const double value : {position.latitude_deg, position.longitude_deg, position.altitude_m}) digest.add(value);
+    add(digest, pose);
   }
 }
 
@@ -105,6 +125,13 @@ void add(Digest& digest, const FleetRobot& robot) {
   for (const double value : {robot.info.radius_m, limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
                              limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2}) {
     digest.add(value);
+  }
+  if (const Drive& drive = robot.info.drive; drive != Drive()) {
+    digest.add(static_cast<std::uint64_t>(drive.kind));
+    for (const double value : {limits.lateral_max_mps, drive.wheelbase_m, drive.steering_max_rad,
+                               drive.steering_rate_radps, drive.track_factor, drive.assumed_factor, drive.icr_x_m}) {
+      digest.add(value);
+    }
   }
   digest.add(robot.model->push_max_n);
   digest.add(robot.model->sensors_digest);

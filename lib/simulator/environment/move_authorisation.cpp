@@ -86,6 +86,7 @@ double MoveAuthorisation::extentOf(std::size_t robot) const {
 
 std::span<const std::uint32_t> MoveAuthorisation::robotsNear(const Scene& scene, std::size_t robot,
                                                              const Path& path) const {
+  if (movers_.size() == 1) return {};
   static thread_local std::vector<std::uint32_t> found;
   const double own_m = held_.empty() ? movers_[robot].radius_m : extentOf(robot);
   const double reach_m = own_m + std::abs(path.length_m) + extent_max_m_ + length_max_m_ + kContactGap_m;

@@ -5,7 +5,11 @@
 namespace robosim {
 
 PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& objects)
-    : model_(&model), scene_({}, 0, model.world.bounds), frames_(model.fleet.robots.size()) {
+    : model_(&model),
+      scene_({}, 0, model.world.bounds),
+      frames_(model.fleet.robots.size()),
+      floor_pictures_(floorPicturesOf(model.world.maps)),
+      georeference_(georeferenceOf(model.world)) {
   robot_bodies_.reserve(model.fleet.robots.size());
   for (const auto& robot : model.fleet.robots) {
     CompactBody& compact = robot_bodies_.emplace_back(CompactBody{{}, robot.body.heights()});
@@ -22,7 +26,11 @@ void PlacedBodies::setObjects(const std::vector<WorldObject>& objects) {
   listObjects(objects);
   heat_sources_.clear();
   reflectivity_.clear();
+  featured_.clear();
   addProperties(objects);
+  if (BodyLooks::areSeen(*model_)) {
+    looks_ = BodyLooks(*model_, objects, scene_, body_of_object_, floor_pictures_);
+  }
 }
 
 void PlacedBodies::listObjects(const std::vector<WorldObject>& objects) {
@@ -58,10 +66,12 @@ void PlacedBodies::addProperties(const std::vector<WorldObject>& objects) {
     const auto& pose = objects[i].body.world_from_body;
     addHeatSource(objects[i].body, {pose.x, pose.y}, id);
     addReflectivity(objects[i].body, id);
+    addFeatures(objects[i].body, id);
   }
   for (std::size_t i = 0; i < robots.size(); ++i) {
     addHeatSource(robots[i].body, {}, scene_.movingBody(i));
     addReflectivity(robots[i].body, scene_.movingBody(i));
+    addFeatures(robots[i].body, scene_.movingBody(i));
   }
 }
 
@@ -73,6 +83,26 @@ void PlacedBodies::addReflectivity(const Body& body, BodyId id) {
   if (body.reflectivity == kReflectivity) return;
   reflectivity_.resize(scene_.stationaryCount() + scene_.movingCount(), static_cast<float>(kReflectivity));
   reflectivity_[static_cast<std::size_t>(id)] = static_cast<float>(body.reflectivity);
+}
+
+void PlacedBodies::addFeatures(const Body& body, BodyId id) {
+  if (FeaturedBody::isOne(body)) featured_.push_back({body, body.solid(), id});
+}
+
+void PlacedBodies::placeFeatured(const State& state, std::span<const ObjectMotion> motions, const KnownRobots& known) {
+  for (FeaturedBody& one : featured_) {
+    if (static_cast<std::size_t>(one.id) < scene_.stationaryCount()) continue;
+    const std::size_t i = scene_.movingIndex(one.id);
+    if (i < robot_bodies_.size()) {
+      const auto some = known.some();
+      const bool is_known = known.areAll() || std::binary_search(some.begin(), some.end(), i);
+      one.is_present = is_known && !state.isAbsent(i);
+      one.body.world_from_body = state.world_from_robot[i];
+    } else {
+      one.body.world_from_body = motions[i - robot_bodies_.size()].world_from_object;
+    }
+    one.solid = one.body.solid();
+  }
 }
 
 void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motions, const KnownRobots& known,
@@ -91,6 +121,8 @@ void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motio
   } else {
     scene_.freeze(workers, known.some());
   }
+  if (!featured_.empty()) placeFeatured(state, motions, known);
+  if (!looks_.isEmpty()) looks_.setLeds(state, known, workers);
   for (auto& source : heat_sources_) {
     if (static_cast<std::size_t>(source.body) < scene_.stationaryCount()) continue;
     const std::size_t robot = scene_.movingIndex(source.body);
@@ -154,7 +186,14 @@ Snapshot PlacedBodies::snapshot(const State& state, std::span<const Path> paths,
           .paths = paths,
           .driven_m = state.driven_m,
           .reflectivity = reflectivity_,
-          .closed_grippers = state.closed_grippers};
+          .closed_grippers = state.closed_grippers,
+          .featured = featured_,
+          .floor_pictures = floor_pictures_,
+          .commands = state.commands,
+          .georeference = georeference_ ? &*georeference_ : nullptr,
+          .looks = looks_.looks(),
+          .identities = looks_.identities(),
+          .floor = looks_.isEmpty() ? nullptr : &looks_.floor()};
 }
 
 }  // namespace robosim

@@ -6,6 +6,7 @@
 
 #include "base/parallel_executor.h"
 #include "dynamics/movable_body.h"
+#include "environment/body_looks.h"
 #include "environment/known_robots.h"
 #include "environment/model.h"
 #include "environment/robot_range.h"
@@ -59,6 +60,9 @@ class PlacedBodies {
   void addProperties(const std::vector<WorldObject>& objects);
   void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id);
   void addReflectivity(const Body& body, BodyId id);
+  void addFeatures(const Body& body, BodyId id);
+  /// Where the moving ones are.
+  void placeFeatured(const State& state, std::span<const ObjectMotion> motions, const KnownRobots& known);
   Solid solidOf(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) const;
 
   const Model* model_;
@@ -70,6 +74,10 @@ class PlacedBodies {
   std::vector<PlanarTransform> frames_;   ///< of the robots whose readings are kept
   std::vector<HeatSource> heat_sources_;  ///< hot objects, then hot robots; those of moving bodies follow them
   std::vector<float> reflectivity_;       ///< by body; empty if all have the default
+  std::vector<FeaturedBody> featured_;    ///< objects, then robots
+  std::vector<FloorPicture> floor_pictures_;
+  BodyLooks looks_;  ///< empty without ray-cast cameras
+  std::optional<GeoReference> georeference_;
 };
 
 }  // namespace robosim

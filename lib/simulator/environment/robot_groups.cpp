@@ -2,16 +2,31 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "geometry/shapes/path.h"
+#include "robots/drive_kinematics.h"
 
 namespace robosim {
 namespace {
 
-double reachOf(const RobotModel& model, double period_s) {
-  double reach_m = model.radius_m + model.limits.speed_max_mps * period_s;
-  for (const auto& sensor : model.sensors) reach_m = std::max(reach_m, robosim::reachOf(*sensor));
-  return reach_m + kContactGap_m;
+RobotGroup makeGroup(const RobotModel& model, const std::vector<std::size_t>& slots, double period_s) {
+  RobotGroup group{&model, {}, {}, model.radius_m + groundSpeedMax(model.drive, model.limits) * period_s, {}};
+  for (const auto slot : slots) {
+    const Sensor& sensor = *model.sensors[slot];
+    group.reach_m = std::max(group.reach_m, reachOf(sensor));
+    (sensor.sensesInHostProcess() ? group.host_slots : group.slots).push_back(slot);
+  }
+  group.reach_m += kContactGap_m;
+  return group;
+}
+
+std::vector<std::size_t> sensedSlots(const RobotModel& model, std::size_t robot, const IsSensed& is_sensed) {
+  std::vector<std::size_t> slots;
+  for (std::size_t slot = 0; slot < model.sensors.size(); ++slot) {
+    if (!is_sensed || is_sensed(robot, slot)) slots.push_back(slot);
+  }
+  return slots;
 }
 
 }  // namespace
@@ -23,12 +38,13 @@ std::span<const std::uint32_t> RobotGroup::within(RobotRange range) const {
   return {begin, std::lower_bound(begin, robots.end(), range.end)};
 }
 
-RobotGroups::RobotGroups(const Fleet& fleet, double period_s) {
-  std::map<const RobotModel*, std::uint32_t> group_of;
+RobotGroups::RobotGroups(const Fleet& fleet, double period_s, const IsSensed& is_sensed) {
+  std::map<std::pair<const RobotModel*, std::vector<std::size_t>>, std::uint32_t> group_of;
   for (std::uint32_t i = 0; i < fleet.robots.size(); ++i) {
     const RobotModel* model = fleet.robots[i].model.get();
-    const auto [found, is_new] = group_of.emplace(model, static_cast<std::uint32_t>(groups.size()));
-    if (is_new) groups.push_back({model, reachOf(*model, period_s), {}});
+    const auto slots = sensedSlots(*model, i, is_sensed);
+    const auto [found, is_new] = group_of.emplace(std::pair(model, slots), static_cast<std::uint32_t>(groups.size()));
+    if (is_new) groups.push_back(makeGroup(*model, slots, period_s));
     groups[found->second].robots.push_back(i);
     number_of.push_back(found->second);
   }

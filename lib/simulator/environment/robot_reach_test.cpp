@@ -24,14 +24,27 @@ std::unique_ptr<Environment> sceneOf(Rng& rng) {
   for (std::uint32_t i = 0; i < kOthers; ++i) {
     addDisc(world, fleet, "r" + std::to_string(i), {-50 + 3.0 * i, -50, rng.uniform(-3, 3)}, rng.uniform(0.1, 0.4));
     FleetRobot& robot = fleet.robots.back();
+    robot.body.fiducial = 1 + i;
     if (i % 2 == 0) continue;
     const double radius_m = robot.info.radius_m;
     robot.body.shape = Cube{2 * radius_m * 0.8, 2 * radius_m * 0.6};  // of this radius
   }
   addWall(world, 1.5, rng.uniform(-2, 2), 0.5, 0.1, rng.uniform(0, 3));
+  for (int i = 0; i < 6; ++i) {
+    WorldObject lamp;
+    lamp.name = "lamp" + std::to_string(i);
+    lamp.body = {.shape = Cylinder{0.02},
+                 .world_from_body = {2.4 * std::cos(i), 2.4 * std::sin(i), 0},
+                 .center_z_m = 0.1,
+                 .height_m = 0.01};
+    lamp.body.light_cd = 10;
+    world.objects.push_back(lamp);
+  }
   EnvironmentOptions options;
   options.seed = rng.below(1'000'000);
-  return std::make_unique<Environment>(world, fleet, options);
+  auto environment = std::make_unique<Environment>(world, fleet, options);
+  for (std::uint32_t i = 1; i <= kOthers; ++i) environment->setCommand(i, {.led_color = i});
+  return environment;
 }
 
 /// From the measuring robot's centre to the nearest part of another robot [m].
@@ -116,11 +129,19 @@ TEST(RobotReach, OfRangeSensorsContainsAllRobotsThatAffectAMeasurement) {
            "reach_m='1.5' drift_m='0.1'/></laser>",
            "<range_and_bearing range_max_m='2' count='14' z_m='0.1'/>",
            "<range_and_bearing range_max_m='2' count='3' z_m='0.1'><noise/></range_and_bearing>",
+           "<omni_camera range_max_m='2' x_m='0.1' z_m='0.5'><noise/></omni_camera>",
+           "<fiducial range_max_m='2' x_m='0.1' z_m='0.5' field_of_view_deg='300'/>",
        }) {
     const Changes changes = changesOf(sensor);
     EXPECT_EQ(changes.beyond, 0) << sensor;
     EXPECT_GT(changes.within, 30) << sensor << ": the scenes are too easy";
   }
+}
+
+TEST(RobotReach, OfLightSensorsContainsAllRobotsThatCastShadows) {
+  const Changes changes = changesOf("<light range_max_m='3.2'><ring count='4' radius_m='0.2' z_m='0.1'/></light>");
+  EXPECT_EQ(changes.beyond, 0);
+  EXPECT_GT(changes.within, 5);
 }
 
 TEST(RobotReach, OfABumperIsThatOfItsSegments) {
@@ -130,8 +151,9 @@ TEST(RobotReach, OfABumperIsThatOfItsSegments) {
 }
 
 TEST(RobotReach, OfSensorsOfTheOwnRobotIsZero) {
-  for (const char* sensor : {"<heat range_max_m='5'><noise lag_s='1'/></heat>", "<compass><noise/></compass>",
-                             "<odometry/>", "<battery><noise drop_v_per_mps='0.03' std_v='0.02'/></battery>"}) {
+  for (const char* sensor :
+       {"<heat range_max_m='5'><noise lag_s='1'/></heat>", "<compass><noise/></compass>", "<odometry/>",
+        "<ground><at x_m='0.1'/><noise/></ground>", "<battery><noise drop_v_per_mps='0.03' std_v='0.02'/></battery>"}) {
     EXPECT_EQ(sensorFrom(sensor)->robotReach(kMeasuringSpeed_mps), 0) << sensor;
     const Changes changes = changesOf(sensor);
     EXPECT_EQ(changes.beyond, 0) << sensor;

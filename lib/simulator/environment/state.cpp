@@ -34,6 +34,11 @@ std::size_t sizeOf(const Measurement& measurement) {
   return std::visit([](const auto& of_kind) { return sizeOf(of_kind); }, measurement);
 }
 
+/// Gives the robots of a fleet with other drives than differential ones their state.
+void resizeDrives(State& state, const Fleet& fleet) {
+  if (hasOtherDrives(fleet)) state.drives.resize(fleet.robots.size());
+}
+
 /// Whether the digest is of as many robots as the state.
 bool digestFits(const State& state) {
   return !state.digest || state.digest->chunkCount() == RunDigest::chunkCountOf(state.readings.size());
@@ -50,7 +55,8 @@ bool haveSameShape(const State& a, const State& b) {
     return std::equal(x.measurements.begin(), x.measurements.end(), y.measurements.begin(), y.measurements.end(),
                       same_measurement);
   };
-  return a.time.period_s == b.time.period_s && sizes_a == sizes_b && digestFits(a) && digestFits(b) &&
+  return a.time.period_s == b.time.period_s && sizes_a == sizes_b && a.drives.size() == b.drives.size() &&
+         digestFits(a) && digestFits(b) &&
          std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), same_measurements);
 }
 
@@ -66,6 +72,7 @@ State initialState(const Model& model, RobotRange with_readings) {
   state.digest = RunDigest(n);
   state.additions = model.additions;
   forArrays(state, [n](auto& array) { array.resize(n); });
+  resizeDrives(state, model.fleet);
   state.object_speeds.resize(movingObjects(model.world.objects).size());
   for (std::size_t i = 0; i < n; ++i) {
     const FleetRobot& robot = model.fleet.robots[i];
@@ -86,6 +93,7 @@ std::vector<Measurement> blankMeasurements(const RobotModel& model) {
 void addLastRobot(State& state, const Model& model) {
   const std::size_t i = model.fleet.robots.size() - 1;
   forArrays(state, [i](auto& array) { array.resize(i + 1); });
+  resizeDrives(state, model.fleet);
   if (state.digest) state.digest->setRobots(i + 1);
   state.world_from_robot[i] = model.fleet.robots[i].world_from_start;
   Readings& readings = state.readings[i];
@@ -97,6 +105,7 @@ void addLastRobot(State& state, const Model& model) {
 
 void resetRobot(State& state, std::size_t robot, Activity activity, const RobotModel& model) {
   state.speed_mps[robot] = state.turn_radps[robot] = 0;
+  if (!state.drives.empty()) state.drives[robot] = {};
   state.last_motion[robot] = {};
   state.stalled[robot] = 0;
   state.activity[robot] = activity;

@@ -14,6 +14,7 @@
 #include "environment/run_digest.h"
 #include "hardware/command.h"
 #include "hardware/readings.h"
+#include "robots/drive_kinematics.h"
 #include "sensors/sensor.h"
 #include "world/changed_objects.h"
 #include "world/intervention.h"
@@ -54,6 +55,7 @@ struct State {
   std::vector<mrpt::math::TPose2D> world_from_robot;
   std::vector<double> speed_mps;  ///< of the last step, after acceleration limits
   std::vector<double> turn_radps;
+  std::vector<DriveState> drives;  ///< empty if all robots have a differential drive
   std::vector<Motion> last_motion;
   std::vector<double> driven_m;       ///< distance driven since the start
   std::vector<std::uint8_t> stalled;  ///< the last move was clipped or refused

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
 #include "base/digest.h"
 #include "base/error_list.h"
+#include "environment/command_bytes.h"
 #include "environment/environment.h"
 #include "environment/intervention_bytes.h"
 #include "environment/measurement_bytes.h"
@@ -23,8 +25,8 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 9;  ///< since 9, with added robots
-constexpr std::size_t kSizeAt = 20;    ///< after magic and version
+constexpr std::uint32_t kVersion = 11;  ///< since 11, with heads of cameras
+constexpr std::size_t kSizeAt = 20;     ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 constexpr double kFarthestPose_m = 1e7;
@@ -77,9 +79,13 @@ struct MeasurementReader {
     using D = Description<M>;
     if constexpr (kHasPresenceFlag<M>) D::isPresent(measurement) = in.takeFlag();
     if constexpr (kIsFile<M>) {
-      D::file(measurement) = in.takeText(kPictureBytesMax);
-      if (check == NumberCheck::none) return;
-      requireContents(D::fileFaultOf(D::file(measurement)).empty(), "a picture is no JPEG file");
+      std::string file = in.takeText(kPictureBytesMax);
+      if (file.empty()) return;
+      try {
+        D::setFile(measurement, std::move(file));
+      } catch (const std::invalid_argument&) {
+        requireContents(false, "a picture is no JPEG file");
+      }
     } else {
       forNumbers(measurement, [&](const auto& field, auto& number, std::size_t) {
         number = in.takeNumber<std::remove_reference_t<decltype(number)>>();
@@ -113,18 +119,16 @@ void writeRobot(const State& state, std::size_t i, StateWriter& out) {
                              state.last_motion[i].turn_rad, state.driven_m[i]}) {
     out.addNumber(value);
   }
+  out.addNumber(state.last_motion[i].lateral_m);
+  if (!state.drives.empty()) {
+    out.addNumber(state.drives[i].lateral_mps);
+    out.addNumber(state.drives[i].steering_rad);
+  }
   out.addNumber(state.stalled[i]);
   out.addNumber(static_cast<std::uint8_t>(state.activity[i]));
   out.addNumber(state.laser_pan_rad[i]);
 
-  const Command& command = state.commands[i];
-  out.addNumber(command.speed_mps);
-  out.addNumber(command.turn_radps);
-  out.addNumber(command.laser_pan_rad);
-  out.addNumber(static_cast<std::uint8_t>(command.activity));
-  out.addNumber(std::uint8_t{command.by_driver});
-  out.addNumber(std::uint8_t{command.emergency_stop});
-  out.addNumber(std::uint8_t{command.grip});
+  writeCommand(state.commands[i], out);
 
   out.addNumber(state.win_requests[i]);
   out.addNumber(state.outboxes[i].surplus);
@@ -153,26 +157,26 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
                   "a robot is too far away");
   state.speed_mps[i] = in.takeFinite();
   state.turn_radps[i] = in.takeFinite();
-  requireContents(std::abs(state.speed_mps[i]) <= info.limits.speed_max_mps &&
-                      std::abs(state.turn_radps[i]) <= info.limits.turn_max_radps,
-                  "a robot is faster than its limits");
+  requireContents(
+      std::abs(state.speed_mps[i]) <= info.limits.speed_max_mps &&
+          std::abs(state.turn_radps[i]) <= info.limits.turn_max_radps * std::max(1.0, info.drive.turnShare()),
+      "a robot is faster than its limits");
   state.last_motion[i].length_m = in.takeFinite();
   state.last_motion[i].turn_rad = in.takeFinite();
   state.driven_m[i] = in.takeFinite();
+  state.last_motion[i].lateral_m = in.takeFinite();
+  if (!state.drives.empty()) {
+    state.drives[i].lateral_mps = in.takeFinite();
+    state.drives[i].steering_rad = in.takeFinite();
+    requireContents(std::abs(state.drives[i].lateral_mps) <= groundSpeedMax(info.drive, info.limits) &&
+                        std::abs(state.drives[i].steering_rad) <= info.drive.steering_max_rad,
+                    "a robot is faster than its limits");
+  }
   state.stalled[i] = in.takeFlag() ? 1 : 0;
   state.activity[i] = in.takeActivity();
   state.laser_pan_rad[i] = in.takeNumber<float>();
-
-  Command& command = state.commands[i];
-  command.speed_mps = in.takeFinite();
-  command.turn_radps = in.takeFinite();
-  command.laser_pan_rad = in.takeNumber<float>();
-  requireContents(std::isfinite(state.laser_pan_rad[i]) && std::isfinite(command.laser_pan_rad),
-                  "a pan angle is not finite");
-  command.activity = in.takeActivity();
-  command.by_driver = in.takeFlag();
-  command.emergency_stop = in.takeFlag();
-  command.grip = in.takeFlag();
+  requireContents(std::isfinite(state.laser_pan_rad[i]), "a pan angle is not finite");
+  state.commands[i] = readCommand(in);
 
   state.win_requests[i] = in.takeFlag() ? 1 : 0;
   state.outboxes[i].surplus = in.takeNumber<std::uint64_t>();
@@ -188,6 +192,7 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
 
   Readings& readings = state.readings[i];
   readMeasurements(in, readings, NumberCheck::permitted);
+  if (const char* fault = pictureFaultOf(readings.measurements, *info.sensors)) requireContents(false, fault);
   readings.is_too_far = in.takeFlag();
   const auto received = in.takeNumber<std::uint32_t>();
   requireContents(received <= InboxLimit::kMaxMessages, "a robot has received too many messages");

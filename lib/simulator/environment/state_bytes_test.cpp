@@ -111,10 +111,10 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   EXPECT_EQ(errorOf(model, damaged),
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
-  newer[16] = 10;
+  newer[16] = 12;
   EXPECT_EQ(
       errorOf(model, sealed(newer)),
-      "the saved state has version 10 of the format, and this program reads version 9; use the version of RoboSim "
+      "the saved state has version 12 of the format, and this program reads version 11; use the version of RoboSim "
       "that saved it");
   Model other = model;
   other.seed = 2;

@@ -168,6 +168,8 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { s.commands[1].by_driver = !s.commands[1].by_driver; },
       [](State& s) { s.commands[1].emergency_stop = !s.commands[1].emergency_stop; },
       [](State& s) { s.commands[1].grip = !s.commands[1].grip; },
+      [](State& s) { s.commands[1].led_color ^= 0xff0000; },
+      [](State& s) { s.commands[1].camera_head.aim.tilt_rad += 1; },
       [](State& s) { s.closed_grippers.push_back({.robot = 1, .object = {}}); },
       [](State& s) {
         s.outboxes[1].messages.push_back({0, "x"});
@@ -242,6 +244,8 @@ TEST(State, ReplacesCommandsThatAreNotFiniteByZero) {
   const auto run = smallRun();
   const double nan = std::nan("");
   run->setCommand(0, {.speed_mps = nan, .turn_radps = -1 / 0.0, .laser_pan_rad = static_cast<float>(nan)});
+  EXPECT_EQ(run->state().commands[0], Command{});
+  run->setCommand(0, {.camera_head = {{.tilt_rad = nan}, 0.5}});
   EXPECT_EQ(run->state().commands[0], Command{});
 }
 

@@ -43,7 +43,7 @@ void StepPhases::limitTo(std::span<const std::uint32_t> known, RobotRange counte
 
 MotionState StepPhases::motion() {
   State& state = impl_->state;
-  return {state.world_from_robot, state.speed_mps, state.turn_radps,    state.last_motion,
+  return {state.world_from_robot, state.speed_mps, state.turn_radps,    state.drives, state.last_motion,
           state.driven_m,         state.stalled,   state.laser_pan_rad, state.stalls};
 }
 

@@ -34,6 +34,7 @@ struct StepOrders {
 struct MotionState {
   std::span<mrpt::math::TPose2D> world_from_robot;
   std::span<double> speed_mps, turn_radps;
+  std::span<DriveState> drives;  ///< empty if all robots have a differential drive
   std::span<Motion> last_motion;
   std::span<double> driven_m;
   std::span<std::uint8_t> stalled;

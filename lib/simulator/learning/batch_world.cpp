@@ -4,8 +4,10 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "base/error_list.h"
+#include "hardware/measurement_fields.h"
 
 namespace robosim {
 namespace {
@@ -28,6 +30,43 @@ void requireRobots(const LoadedWorld& world, const BatchOptions& options) {
   }
 }
 
+/// Learning environments take no pictures that may differ between machines.
+void refusePictures(const FleetRobot& robot, const ObservationLayout& layout) {
+  for (const ObservationPart& part : layout.parts()) {
+    if (part.slot >= robot.info.sensors->size()) continue;
+    const SensorInfo& sensor = (*robot.info.sensors)[part.slot];
+    if (sensor.camera.isRaycast()) continue;
+    const Measurement blank = blankMeasurement(sensor);
+    if (std::visit([]<typename M>(const M&) { return kIsReproducible<M>; }, blank)) continue;
+    throw ConfigError("robot '" + robot.info.name + "' cannot observe '" + part.name +
+                      "' in a learning environment, which takes no pictures of the model opengl; use <camera "
+                      "model=\"raycast\">, or Simulation.readings()");
+  }
+}
+
+std::vector<ObservedPicture> picturesOf(std::span<const FleetRobot> team,
+                                        const std::vector<ObservationLayout>& layouts) {
+  std::vector<ObservedPicture> pictures;
+  for (std::size_t agent = 0; agent < layouts.size(); ++agent) {
+    for (const ObservationPart& part : layouts[agent].parts()) {
+      if (!part.picture) continue;
+      auto found = std::find_if(pictures.begin(), pictures.end(), [&](const auto& of) { return of.name == part.name; });
+      if (found == pictures.end()) {
+        const std::vector<std::size_t> none(layouts.size(), ObservedPicture::kNone);
+        found = pictures.insert(found, {part.name, *part.picture, part.range_max_m, none});
+      }
+      const CameraInfo &first = found->camera, &other = *part.picture;
+      if (first.width_px != other.width_px || first.height_px != other.height_px || first.layers != other.layers ||
+          found->range_max_m != part.range_max_m) {
+        throw ConfigError("robot '" + team[agent].info.name + "': its pictures of '" + part.name +
+                          "' differ in size, layers or range from those of another agent; give them equal cameras");
+      }
+      found->slots[agent] = part.slot;
+    }
+  }
+  return pictures;
+}
+
 }  // namespace
 
 BatchAgents listAgents(const LoadedWorld& world, const BatchOptions& options) {
@@ -36,6 +75,8 @@ BatchAgents listAgents(const LoadedWorld& world, const BatchOptions& options) {
   BatchAgents agents;
   const std::span team(robots.data(), options.agents == 0 ? robots.size() : options.agents);
   agents.layouts = ObservationLayout::ofTeam(team, options.observations);
+  for (std::size_t i = 0; i < team.size(); ++i) refusePictures(team[i], agents.layouts[i]);
+  agents.pictures = picturesOf(team, agents.layouts);
   for (const auto& layout : agents.layouts) agents.size = std::max(agents.size, layout.size());
   return agents;
 }

@@ -24,13 +24,15 @@ struct BatchWorld {
 /// What the agents of all worlds of a batch have in common.
 struct BatchAgents {
   std::vector<ObservationLayout> layouts;  ///< by agent
+  std::vector<ObservedPicture> pictures;   ///< in the order of BatchOptions::observations
   std::size_t size = 0;                    ///< of the longest observation
 
   std::size_t count() const { return layouts.size(); }  ///< in each world
 };
 
 /// The agents of a batch's first world, which may be of different robot types.
-/// @throws ConfigError for a world with too few robots, and for ObservationLayout::ofTeam()
+/// @throws ConfigError for a world with too few robots, for ObservationLayout::ofTeam(), and for agents whose pictures
+/// of one name differ in form
 BatchAgents listAgents(const LoadedWorld& world, const BatchOptions& options);
 
 /// @throws ConfigError for a world whose robots differ from those of the first one in number or in what they observe

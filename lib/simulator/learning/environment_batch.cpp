@@ -10,12 +10,11 @@
 #include "base/error_list.h"
 #include "base/parallel_executor.h"
 #include "base/random.h"
+#include "environment/state_bytes.h"
 #include "learning/batch_world.h"
 
 namespace robosim {
 namespace {
-
-constexpr std::size_t kActionSize = 2;
 
 /// An environment of the batch and its present episode.
 struct Episode {
@@ -56,10 +55,11 @@ void checkOptions(const BatchOptions& options) {
   }
   if (options.start_distance_m && !(*options.start_distance_m >= 0 && std::isfinite(*options.start_distance_m))) {
     throw ConfigError("the distance of random starts from the gold is " + std::to_string(*options.start_distance_m) +
-                      " m; it must be at least 0");
+                      " m; it must be at least 0, for example 1.5");
   }
   if (!(options.period_s > 0 && options.period_s <= 1)) {
-    throw ConfigError("the time step is " + std::to_string(options.period_s) + " s; it must lie in (0, 1] seconds");
+    throw ConfigError("the time step is " + std::to_string(options.period_s) +
+                      " s; it must lie in (0, 1] seconds, for example 0.1");
   }
 }
 
@@ -70,6 +70,7 @@ struct EnvironmentBatch::Impl {
   MakeWorld make_world;    ///< of each episode; null: the environments keep their worlds
   MakeOthers make_others;  ///< null: other robots stand still
   BatchAgents agents;
+  std::size_t action_size = 2;
   std::vector<Episode> episodes;
   ParallelExecutor workers;
 
@@ -78,6 +79,7 @@ struct EnvironmentBatch::Impl {
         make_world(std::move(make)),
         make_others(std::move(others)),
         agents(listAgents(loaded.front(), options)),
+        action_size(actionSizeOf(loaded.front().fleet, agents.count())),
         episodes(options.environments),
         workers(options.threads) {
     std::vector<std::shared_ptr<const BatchWorld>> worlds;
@@ -88,14 +90,40 @@ struct EnvironmentBatch::Impl {
     });
   }
 
-  static void enter(Episode& episode, std::shared_ptr<const BatchWorld> world) {
+  /// Actions have a lateral speed if any agent has one.
+  static std::size_t actionSizeOf(const Fleet& fleet, std::size_t agents) {
+    const auto end = fleet.robots.begin() + static_cast<std::ptrdiff_t>(agents);
+    const bool is_any_omni = std::any_of(
+        fleet.robots.begin(), end, [](const FleetRobot& robot) { return robot.info.drive.kind == DriveKind::omni; });
+    return is_any_omni ? 3 : 2;
+  }
+
+  void enter(Episode& episode, std::shared_ptr<const BatchWorld> world) const {
     episode.others.reset();
     episode.environment = std::make_unique<Environment>(world->model, world->start);
+    if (!options.has_digests) {
+      episode.environment->senseOnly([&](std::size_t robot, std::size_t slot) { return isRead(*world, robot, slot); });
+    }
     episode.environment->setRobotCheck([](const FleetRobot&) {
       return "learning environments have arrays of a fixed number of robots; give the world the robot, and take it out "
              "until it is needed";
     });
     episode.world = std::move(world);
+  }
+
+  /// Whether an observation, a reward, a controller or another sensor that is read reads the sensor of a robot.
+  bool isRead(const BatchWorld& world, std::size_t robot, std::size_t slot) const {
+    if (robot >= agents.count()) return make_others != nullptr;
+    const auto parts = agents.layouts[robot].parts();
+    if (std::any_of(parts.begin(), parts.end(), [&](const ObservationPart& part) { return part.slot == slot; }) ||
+        (options.reward.heat != 0 && world.heat_slots[robot] == static_cast<int>(slot))) {
+      return true;
+    }
+    const auto& sensors = world.model->fleet.robots[robot].model->sensors;
+    for (std::size_t other = slot + 1; other < sensors.size(); ++other) {
+      if (sensors[other]->slotRead() == slot && isRead(world, robot, other)) return true;
+    }
+    return false;
   }
 
   void startEpisode(Episode& episode) const {
@@ -155,11 +183,13 @@ struct EnvironmentBatch::Impl {
     const State& state = environment.state();
     const RewardWeights& weights = options.reward;
     for (std::size_t agent = 0; agent < agents.count(); ++agent) {
-      const float* action = &actions[(i * agents.count() + agent) * kActionSize];
+      const float* action = &actions[(i * agents.count() + agent) * action_size];
       const MotionLimits& limit = episode.world->model->fleet.robots[agent].info.limits;
       Command command;
       command.speed_mps = std::clamp(static_cast<double>(action[0]), -1.0, 1.0) * limit.speed_max_mps;
       command.turn_radps = std::clamp(static_cast<double>(action[1]), -1.0, 1.0) * limit.turn_max_radps;
+      if (action_size > 2)
+        command.lateral_mps = std::clamp(static_cast<double>(action[2]), -1.0, 1.0) * limit.lateral_max_mps;
       environment.setCommand(agent, command);
       environment.checkWin(agent);
       rewards[agent] = -weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]);
@@ -182,8 +212,8 @@ struct EnvironmentBatch::Impl {
     const auto bad = std::find_if(actions.begin(), actions.end(), [](float a) { return !std::isfinite(a); });
     if (bad == actions.end()) return;
     const auto index = static_cast<std::size_t>(bad - actions.begin());
-    throw std::invalid_argument("the action of agent " + std::to_string(index / kActionSize % agents.count()) +
-                                " in environment " + std::to_string(index / kActionSize / agents.count()) +
+    throw std::invalid_argument("the action of agent " + std::to_string(index / action_size % agents.count()) +
+                                " in environment " + std::to_string(index / action_size / agents.count()) +
                                 " is not finite; actions are fractions in [-1, 1]");
   }
 };
@@ -206,6 +236,7 @@ EnvironmentBatch::~EnvironmentBatch() = default;
 const BatchOptions& EnvironmentBatch::options() const { return impl_->options; }
 std::size_t EnvironmentBatch::agentCount() const { return impl_->agents.count(); }
 const ObservationLayout& EnvironmentBatch::layout(std::size_t agent) const { return impl_->agents.layouts.at(agent); }
+std::size_t EnvironmentBatch::actionSize() const { return impl_->action_size; }
 std::size_t EnvironmentBatch::observationSize() const { return impl_->agents.size; }
 const Environment& EnvironmentBatch::environment(std::size_t i) const { return *impl_->episodes.at(i).environment; }
 
@@ -230,6 +261,38 @@ void EnvironmentBatch::setChanges(std::size_t environment, std::vector<Change> c
   impl_->episodes.at(environment).changes = std::move(changes);
 }
 
+void EnvironmentBatch::endEpisode(std::size_t environment) { impl_->episodes.at(environment).is_over = true; }
+
+bool EnvironmentBatch::hasOthers(std::size_t environment) const {
+  const Episode& episode = impl_->episodes.at(environment);
+  return episode.others && !episode.is_over;
+}
+
+SavedEpisode EnvironmentBatch::save(std::size_t environment) const {
+  const Episode& episode = impl_->episodes.at(environment);
+  const Environment& of = *episode.environment;
+  return {episode.seed,    episode.number,  episode.world_seed,
+          episode.changes, episode.is_over, toBytes(*of.model(), of.state())};
+}
+
+void EnvironmentBatch::restore(std::size_t environment, const SavedEpisode& saved, const EnvironmentBatch* others) {
+  Episode& episode = impl_->episodes.at(environment);
+  if (impl_->make_world && saved.world_seed != 0) {
+    impl_->enter(episode, makeBatchWorld(impl_->make_world(saved.world_seed), impl_->options, impl_->agents));
+  }
+  Environment& of = *episode.environment;
+  of.restore(stateFromBytes(*of.model(), saved.state));
+  episode.seed = saved.seed;
+  episode.number = saved.number;
+  episode.world_seed = saved.world_seed;
+  episode.changes = saved.changes;
+  episode.is_over = saved.is_over;
+  episode.others.reset();
+  if (others && others->hasOthers(environment)) {
+    episode.others = others->impl_->episodes.at(environment).others->clone(of);
+  }
+}
+
 void EnvironmentBatch::reset(std::span<float> observations, std::span<const std::uint8_t> which) {
   requireSize("the array of observations", observations.size(),
               impl_->episodes.size() * agentCount() * observationSize());
@@ -244,13 +307,47 @@ void EnvironmentBatch::reset(std::span<float> observations, std::span<const std:
 void EnvironmentBatch::step(std::span<const float> actions, const BatchResults& results) {
   const std::size_t environments = impl_->episodes.size();
   const std::size_t robots = environments * agentCount();
-  requireSize("the array of actions", actions.size(), robots * kActionSize);
+  requireSize("the array of actions", actions.size(), robots * actionSize());
   requireSize("the array of observations", results.observations.size(), robots * observationSize());
   requireSize("the array of rewards", results.rewards.size(), robots);
   requireSize("the array of terminations", results.terminated.size(), environments);
   requireSize("the array of truncations", results.truncated.size(), environments);
   impl_->checkActions(actions);
   impl_->workers.forEach(environments, 4, [&](std::size_t i) { impl_->step(i, actions, results); });
+}
+
+std::span<const ObservedPicture> EnvironmentBatch::pictures() const { return impl_->agents.pictures; }
+
+void EnvironmentBatch::writePictures(std::size_t picture, const BatchPictures& out) {
+  const ObservedPicture& of = impl_->agents.pictures.at(picture);
+  const std::size_t agents = impl_->agents.count(), pixels = std::size_t{of.camera.width_px} * of.camera.height_px;
+  const auto& [has_rgb, has_depth, has_identity] = of.camera.layers;
+  const std::size_t all = impl_->episodes.size() * agents * pixels;
+  requireSize("the array of colours", out.rgb.size(), has_rgb ? 3 * all : 0);
+  requireSize("the array of depths", out.depth_m.size(), has_depth ? all : 0);
+  requireSize("the array of identities", out.identity.size(), has_identity ? all : 0);
+  const auto copy = [&](const auto& from, const auto& to, std::size_t at, std::size_t size) {
+    if (to.empty()) return;
+    const auto begin = to.begin() + static_cast<std::ptrdiff_t>(at * size);
+    if (from.size() == size) {
+      std::copy(from.begin(), from.end(), begin);
+    } else {
+      std::fill_n(begin, size, 0);
+    }
+  };
+  impl_->workers.forEach(impl_->episodes.size() * agents, 1, [&](std::size_t i) {
+    static const RawPicture kNoPicture;
+    const std::size_t agent = i % agents;
+    const RawPicture* raw = nullptr;
+    if (of.slots[agent] != ObservedPicture::kNone) {
+      const auto& readings = impl_->episodes[i / agents].environment->state().readings[agent];
+      raw = std::get<Image>(readings.measurements[of.slots[agent]]).raw.get();
+    }
+    const RawPicture& from = raw ? *raw : kNoPicture;
+    copy(from.rgb, out.rgb, i, 3 * pixels);
+    copy(from.depth_m, out.depth_m, i, pixels);
+    copy(from.identity, out.identity, i, pixels);
+  });
 }
 
 }  // namespace robosim

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "environment/environment.h"
@@ -18,6 +19,19 @@ class OtherRobots {
  public:
   virtual ~OtherRobots() = default;
   virtual void act() = 0;  ///< gives their commands for the next step
+  /// The same for a copy of the environment in the same state. @throws ConfigError when a controller cannot be copied
+  virtual std::unique_ptr<OtherRobots> clone(Environment&) const = 0;
+};
+
+/// All that an environment of a batch needs to continue bit for bit in another batch of the same worlds and options,
+/// except the memory of OtherRobots.
+struct SavedEpisode {
+  std::uint64_t seed = 0;
+  std::uint64_t number = 0;      ///< of episodes since the seed was set
+  std::uint64_t world_seed = 0;  ///< of a generated world; 0: the first one, before the first reset
+  std::vector<Change> changes;   ///< with which its episodes begin
+  bool is_over = true;           ///< the next step starts the next episode
+  std::string state;             ///< state_bytes.h
 };
 
 /// Memory of the caller, into which EnvironmentBatch writes the results of a step, in row-major order.
@@ -27,6 +41,14 @@ struct BatchResults {
   std::span<double> rewards;           ///< environments × agents
   std::span<std::uint8_t> terminated;  ///< by environment; 1 when the world was won in this step
   std::span<std::uint8_t> truncated;   ///< by environment; 1 when the episode has reached BatchOptions::steps_max
+};
+
+/// Memory of the caller for pictures of one name, environments × agents × rows × columns in row-major order; empty for
+/// layers that they do not have.
+struct BatchPictures {
+  std::span<std::uint8_t> rgb;  ///< red, green, blue of each pixel
+  std::span<float> depth_m;     ///< RawPicture::depth_m
+  std::span<std::uint32_t> identity;
 };
 
 /// Many environments that step together, for learning algorithms. Environments of one world share its Model. Episodes
@@ -62,6 +84,8 @@ class EnvironmentBatch {
   std::size_t agentCount() const;  ///< of each environment
   const ObservationLayout& layout(std::size_t agent = 0) const;
   std::size_t observationSize() const;  ///< number of values per agent: that of the longest observation
+  /// Number of values of an agent's action: 2, or 3 if any agent of the first world has an omnidirectional drive.
+  std::size_t actionSize() const;
   /// It has a digest if BatchOptions::has_digests. The reference is valid until the next episode if worlds are
   /// generated.
   const Environment& environment(std::size_t i) const;
@@ -76,13 +100,30 @@ class EnvironmentBatch {
   /// that is impossible then, as where a random start is in the way; the next call begins the next episode.
   /// @throws ConfigError for EndRun
   void setChanges(std::size_t environment, std::vector<Change> changes);
+  /// Ends the episode of environment i: the next step starts the next one.
+  void endEpisode(std::size_t environment);
+
+  /// Whether OtherRobots take part in an environment's episode, whose memory save() leaves out.
+  bool hasOthers(std::size_t environment) const;
+  SavedEpisode save(std::size_t environment) const;
+  /// Continues a saved episode in environment i of a batch of the same worlds and options.
+  /// @param others of the saved episode, which are copied; null: none take part in it
+  /// @throws ConfigError for a state of another world, and for a generated world that cannot be made
+  void restore(std::size_t environment, const SavedEpisode& saved, const EnvironmentBatch* others = nullptr);
+
   /// Starts a new episode in every environment, or in those whose element of `which` is not 0, and writes their
   /// observations only.
   void reset(std::span<float> observations, std::span<const std::uint8_t> which = {});
-  /// @param actions environments × agents × 2: set points of speed and turn rate as fractions of the robot's maximum,
-  /// clipped to [-1, 1]
+  /// @param actions environments × agents × actionSize(): set points of speed, turn rate and lateral speed as fractions
+  /// of the robot's maximum, clipped to [-1, 1]
   /// @throws std::invalid_argument for an action that is not finite, and for spans of another size; nothing is changed
   void step(std::span<const float> actions, const BatchResults& results);
+  /// The pictures among the observations.
+  std::span<const ObservedPicture> pictures() const;
+  /// Writes those of an index of pictures(), as of the last step or reset; 0 for an agent without the camera, and in a
+  /// step in which it takes none.
+  /// @throws std::invalid_argument for spans of another size
+  void writePictures(std::size_t picture, const BatchPictures& out);
 
  private:
   struct Impl;

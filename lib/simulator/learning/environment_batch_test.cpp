@@ -1,5 +1,6 @@
 #include "learning/environment_batch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -54,6 +55,64 @@ TEST(EnvironmentBatch, ScalesActionsByTheRobotsLimits) {
   const std::vector<float> actions{0.5f, 0, 0, 0.5f};  // limits: 1 m/s, 2 rad/s; steps of 0.1 s
   batch.step(actions, arrays.results());
   EXPECT_EQ(arrays.observations, (std::vector<float>{0.05f, 0, 0, 0, 0, 0.1f}));
+}
+
+TEST(EnvironmentBatch, WritesThePicturesOfRaycastCameras) {
+  World world = emptyWorld(4);
+  addGold(world, 2.2, 0);  // its near side is 2 m ahead
+  for (const char* model : {"eye", "blind"}) {
+    RobotPlacement& placement = world.robots.emplace_back();
+    placement.name = placement.model = model;
+    placement.world_from_robot = {0, model[0] == 'e' ? 0.0 : -3.0, 0};
+  }
+  const auto type = [](const std::string& name, const std::string& camera) {
+    return std::pair{name, RobotTypeFile{name + ".xml", "<robot name=\"" + name +
+                                                            R"(" help="Sees."><body radius_m="0.2" height_m="0.3"/>
+      <limits speed_max_mps="1" accel_mps2="9" decel_mps2="9" turn_max_degps="90" turn_accel_degps2="900"/>
+      <sensors><odometry/>)" + camera + "</sensors></robot>"}};
+  };
+  ErrorList errors;
+  Fleet fleet = buildFleet(world, "eyes.xml",
+                           {type("eye", R"(<camera model="raycast" layers="rgb depth" width_px="3" height_px="1"
+                                            field_of_view_deg="90" z_m="0.25" rate_hz="5"/>)"),
+                            type("blind", "")},
+                           {}, errors);
+  errors.throwIfAny();
+  BatchOptions options;
+  options.environments = 2;
+  options.observations = {"odometry", "camera"};
+  options.has_random_starts = false;
+  EnvironmentBatch batch(worldsOf({std::move(world), std::move(fleet)}), options);
+  ASSERT_EQ(batch.pictures().size(), 1u);
+  EXPECT_EQ(batch.pictures()[0].name, "camera");
+  EXPECT_EQ(batch.observationSize(), 5u) << "of odometry";
+  Arrays arrays(batch);
+  batch.reset(arrays.observations);
+  std::vector<std::uint8_t> rgb(2 * 2 * 3 * 3, 1);
+  std::vector<float> depth(2 * 2 * 3, 1);
+  batch.writePictures(0, {rgb, depth, {}});
+  EXPECT_EQ(depth[1], 2);
+  EXPECT_EQ(std::vector(rgb.begin() + 3, rgb.begin() + 6), (std::vector<std::uint8_t>{128, 128, 128})) << "it glows";
+  EXPECT_EQ(std::vector(depth.begin() + 3, depth.begin() + 6), (std::vector<float>{0, 0, 0})) << "of the blind robot";
+  EXPECT_TRUE(std::equal(depth.begin(), depth.begin() + 6, depth.begin() + 6)) << "the other environment";
+  batch.step(std::vector<float>(8), arrays.results());
+  batch.writePictures(0, {rgb, depth, {}});
+  EXPECT_EQ(depth, std::vector<float>(12)) << "a step without a picture";
+  std::vector<std::uint32_t> identity(12);
+  EXPECT_THROW(batch.writePictures(0, {rgb, depth, identity}), std::invalid_argument);
+}
+
+TEST(EnvironmentBatch, HasALateralSpeedInTheActionsOfOmnidirectionalAgents) {
+  LoadedWorld world = worldWithGold();
+  FleetRobot& robot = world.fleet.robots[0];
+  robot.info.drive.kind = DriveKind::omni;
+  robot.info.limits.lateral_max_mps = 0.8;
+  EnvironmentBatch batch(worldsOf(std::move(world)), poseOptions(1));
+  EXPECT_EQ(batch.actionSize(), 3u);
+  Arrays arrays(batch);
+  batch.reset(arrays.observations);
+  batch.step(std::vector<float>{0.5f, 0, -0.5f}, arrays.results());
+  EXPECT_EQ(arrays.observations, (std::vector<float>{0.05f, -0.04f, 0}));
 }
 
 TEST(EnvironmentBatch, BeginsEpisodesWithTheChangesOfTheirEnvironment) {
@@ -172,6 +231,7 @@ TEST(EnvironmentBatch, GivesTheSameBatchForAnyNumberOfThreads) {
 TEST(EnvironmentBatch, ComputesDigestsOnRequestOnly) {
   const auto batch_with = [](bool has_digests) {
     BatchOptions options = poseOptions(1);
+    options.observations = {"pose", "odometry"};  // all that the robot measures
     options.has_digests = has_digests;
     auto batch = std::make_unique<EnvironmentBatch>(worldsOf(worldWithGold()), options);
     Arrays arrays(*batch);
@@ -214,6 +274,29 @@ TEST(EnvironmentBatch, RefusesActionsThatAreNotFiniteAndChangesNothing) {
                  "the action of agent 1 in environment 1 is not finite; actions are fractions in [-1, 1]");
   }
   EXPECT_EQ(batch.environment(0).time().step, 0u);
+}
+
+TEST(EnvironmentBatch, ContinuesASavedEpisodeInAnotherBatch) {
+  const BatchOptions options = poseOptions(2, true);
+  EnvironmentBatch batch(worldsOf(worldWithGold()), options), other(worldsOf(worldWithGold()), options);
+  Arrays arrays(batch), others(other);
+  batch.setSeed(1, 77);
+  batch.setChanges(1, {PlaceBody{"r0", -1, -1, 0.5}});
+  batch.reset(arrays.observations);
+  const std::vector<float> actions{0.5f, 0.25f, 0.25f, -0.5f};
+  batch.step(actions, arrays.results());
+  for (const std::size_t i : {0, 1}) other.restore(i, batch.save(i));
+  for (const bool ends : {false, true}) {
+    if (ends) {
+      for (auto* of : {&batch, &other}) of->endEpisode(1);
+    }
+    batch.step(actions, arrays.results());
+    other.step(actions, others.results());
+    EXPECT_EQ(others.observations, arrays.observations);
+    EXPECT_EQ(other.environment(1).state(), batch.environment(1).state());
+  }
+  EXPECT_EQ(batch.environment(1).time().step, 0u);  // the next episode, which begins with the change
+  EXPECT_EQ(arrays.observations[3], -1.f);
 }
 
 TEST(EnvironmentBatch, ReportsWhatARobotCanObserve) {

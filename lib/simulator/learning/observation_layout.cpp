@@ -4,18 +4,47 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "base/error_list.h"
+#include "hardware/measurement_fields.h"
 
 namespace robosim {
 namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
+/// How many numbers of a record an observation contains: the first ones. Of an echo its range only, since its point
+/// follows from that and the beam.
+template <typename M>
+constexpr std::size_t kObservedCount = kFieldCount<M>;
+template <>
+constexpr std::size_t kObservedCount<Echoes> = 1;
+/// Not the lateral speed, which only omnidirectional and tracked robots have.
+template <>
+constexpr std::size_t kObservedCount<Odometry> = 5;
+
+/// Calls visit(field, number) for each number of a measurement that an observation contains, record by record.
+template <typename M, typename Visit>
+void forObserved(M& measurement, const Visit& visit) {
+  using Of = std::remove_const_t<M>;
+  for ([[maybe_unused]] auto& record : Description<Of>::records(measurement)) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      (visit(std::get<i>(Description<Of>::fields), std::get<i>(Description<Of>::fields).get(record)), ...);
+    }
+    (std::make_index_sequence<kObservedCount<Of>>());
+  }
+}
+
+/// Whether its kind of measurement consists of numbers, or of pictures that are equal on every machine.
 bool isObservable(const SensorInfo& sensor) {
-  return sensor.kind != SensorKind::camera && sensor.kind != SensorKind::blob_finder &&
-         sensor.kind != SensorKind::unknown;
+  if (sensor.kind == SensorKind::unknown) return false;
+  if (sensor.kind == SensorKind::camera) return sensor.camera.isRaycast();
+  return std::visit([]<typename M>(const M&) { return kObservedCount<M> > 0; }, blankMeasurement(sensor));
 }
 
 /// The first sensor of a kind, otherwise the sensor with a label.
@@ -48,54 +77,43 @@ void bound(ObservationPart& part, std::size_t size, float low, float high) {
   part.high.assign(size, high);
 }
 
-void describe(const SensorInfo& sensor, ObservationPart& part) {
+/// Bounds of a number: those of its field, and what the sensor's own description adds.
+template <typename Get>
+std::pair<float, float> boundsOf(const SensorInfo& sensor, const Field<Get>& field) {
   constexpr auto kPi = static_cast<float>(M_PI);
-  switch (sensor.kind) {
-    case SensorKind::sonar:
-    case SensorKind::laser:
-    case SensorKind::infrared:
-    case SensorKind::beacons:
-      return bound(part, sensor.beams.size(), 0, static_cast<float>(sensor.no_echo_m));
-    case SensorKind::bumper:
-      return bound(part, sensor.beams.size(), 0, 1);
-    case SensorKind::odometry:
-      bound(part, 5, -kInfinite, kInfinite);
-      part.low[2] = -kPi;
-      part.high[2] = kPi;
-      return;
-    case SensorKind::compass:
-      return bound(part, 1, -kPi, kPi);
-    case SensorKind::values:
-      return bound(part, sensor.quantities.size(), -kInfinite, kInfinite);
-    default:
-      return bound(part, 1, -kInfinite, kInfinite);
-  }
+  const std::string_view name = field.name;
+  if (name == "range" && sensor.no_echo_m > 0) return {0.f, static_cast<float>(sensor.no_echo_m)};
+  if (name == "heading" || sensor.kind == SensorKind::compass) return {-kPi, kPi};
+  using Limits = std::numeric_limits<double>;
+  return {field.min == Limits::lowest() ? -kInfinite : static_cast<float>(field.min),
+          field.max == Limits::max() ? kInfinite : static_cast<float>(field.max)};
+}
+
+void describe(const SensorInfo& sensor, ObservationPart& part) {
+  std::visit(
+      [&](const auto& blank) {
+        forObserved(blank, [&](const auto& field, const auto&) {
+          const auto [low, high] = boundsOf(sensor, field);
+          part.low.push_back(low);
+          part.high.push_back(high);
+        });
+      },
+      blankMeasurement(sensor));
+  part.size = part.low.size();
+  if (sensor.kind != SensorKind::camera) return;
+  part.picture = sensor.camera;
+  part.range_max_m = sensor.range_max_m;
 }
 
 /// Writes the values of a measurement.
 struct MeasurementWriter {
   float* out;
 
-  void operator()(const Echoes& echoes) const {
-    std::transform(echoes.begin(), echoes.end(), out, [](const Echo& echo) { return echo.range_m; });
+  template <typename M>
+  void operator()(const M& measurement) const {
+    float* at = out;
+    forObserved(measurement, [&](const auto&, const auto& number) { *at++ = static_cast<float>(number); });
   }
-  void operator()(const Scalar& scalar) const { *out = static_cast<float>(scalar.value); }
-  void operator()(const Contacts& contacts) const {
-    std::transform(contacts.pressed.begin(), contacts.pressed.end(), out, [](auto p) { return static_cast<float>(p); });
-  }
-  void operator()(const Odometry& odometry) const {
-    out[0] = static_cast<float>(odometry.odom_from_robot.x);
-    out[1] = static_cast<float>(odometry.odom_from_robot.y);
-    out[2] = static_cast<float>(odometry.odom_from_robot.phi);
-    out[3] = static_cast<float>(odometry.speed_mps);
-    out[4] = static_cast<float>(odometry.turn_radps);
-  }
-  void operator()(const BeaconRanges& beacons) const { std::copy(beacons.range_m.begin(), beacons.range_m.end(), out); }
-  void operator()(const Values& values) const {
-    std::transform(values.values.begin(), values.values.end(), out, [](double v) { return static_cast<float>(v); });
-  }
-  void operator()(const Image&) const {}
-  void operator()(const Blobs&) const {}
 };
 
 /// @return nullopt if the robot does not have the part
@@ -157,13 +175,7 @@ ObservationLayout::ObservationLayout(const RobotInfo& robot, const std::vector<s
   }
 }
 
-bool ObservationLayout::isCompatible(const ObservationLayout& other) const {
-  return std::equal(parts_.begin(), parts_.end(), other.parts_.begin(), other.parts_.end(),
-                    [](const ObservationPart& a, const ObservationPart& b) {
-                      return a.name == b.name && a.slot == b.slot && a.size == b.size && a.low == b.low &&
-                             a.high == b.high;
-                    });
-}
+bool ObservationLayout::isCompatible(const ObservationLayout& other) const { return parts_ == other.parts_; }
 
 void ObservationLayout::write(const State& state, std::size_t robot, std::span<float> out) const {
   float* at = out.data();

@@ -1,10 +1,13 @@
 #include "learning/world_generator.h"
 
 #include <set>
+#include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
+#include "base/random.h"
 #include "environment/model.h"
 #include "learning/environment_batch.h"
 #include "robots/world_source.h"
@@ -43,6 +46,65 @@ TEST(WorldGenerator, ReportsRobotsThatDoNotExist) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_EQ(std::string(error.what()).substr(0, 59), "maze.xml: robot 'Robot1': there is no robot type 'unicycle'");
+  }
+}
+
+/// All observations and rewards of 300 steps with random actions, in mazes of robots with many sensors and their
+/// errors.
+std::vector<float> observedIn(EnvironmentBatch& batch) {
+  const std::size_t agents = batch.options().environments * batch.agentCount();
+  std::vector<float> actions(2 * agents), observations(agents * batch.observationSize()), all;
+  std::vector<double> rewards(agents);
+  std::vector<std::uint8_t> terminated(batch.options().environments), truncated(batch.options().environments);
+  batch.reset(observations);
+  Rng rng(1);
+  for (int step = 0; step < 300; ++step) {
+    for (auto& action : actions) action = static_cast<float>(rng.uniform(-0.4, 1));
+    batch.step(actions, {observations, rewards, terminated, truncated});
+    all.insert(all.end(), observations.begin(), observations.end());
+    all.insert(all.end(), rewards.begin(), rewards.end());
+  }
+  return all;
+}
+
+/// Measurement of a robot's first sensor of a kind, and what it is before the first step.
+std::pair<Measurement, Measurement> measuredBy(const Environment& environment, std::size_t robot, SensorKind kind) {
+  const auto& sensors = environment.fleet().robots[robot].model->sensors;
+  for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
+    if (sensors[slot]->info().kind == kind)
+      return {environment.state().readings[robot].measurements[slot], sensors[slot]->blank()};
+  }
+  throw std::logic_error("there is no such sensor");
+}
+
+TEST(EnvironmentBatch, ObservesTheSameWhetherUnreadSensorsAreComputed) {
+  for (const auto& observations :
+       std::vector<std::vector<std::string>>{{"odometry"}, {"sonar", "stalled"}, {"laser"}}) {
+    for (const bool has_others : {false, true}) {
+      BatchOptions options;
+      options.environments = 3;
+      options.agents = 1;
+      options.observations = observations;
+      options.reward.heat = 0.5;
+      options.steps_max = 120;
+      const EnvironmentBatch::MakeOthers others =
+          has_others ? [](Environment&, std::size_t) { return std::unique_ptr<OtherRobots>(); }
+                     : EnvironmentBatch::MakeOthers();
+      EnvironmentBatch few(mazesOf("pioneer3dx_polaroid"), options, others);
+      options.has_digests = true;  // of all sensors
+      EnvironmentBatch every(mazesOf("pioneer3dx_polaroid"), options, others);
+      EXPECT_EQ(observedIn(few), observedIn(every));
+
+      const auto is_computed = [&](std::size_t robot, SensorKind kind) {
+        const auto [now, blank] = measuredBy(few.environment(0), robot, kind);
+        const bool is_same = now == measuredBy(every.environment(0), robot, kind).first;
+        EXPECT_NE(is_same, now == blank) << nameOf(kind);
+        return is_same;
+      };
+      EXPECT_EQ(is_computed(0, SensorKind::laser), observations.front() == "laser");
+      EXPECT_EQ(is_computed(0, SensorKind::sonar), observations.front() == "sonar");
+      EXPECT_EQ(is_computed(1, SensorKind::sonar), has_others) << "controllers may read every sensor of their robots";
+    }
   }
 }
 

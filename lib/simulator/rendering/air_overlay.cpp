@@ -6,6 +6,7 @@
 
 #include "rendering/air_paths.h"
 #include "rendering/air_view.h"
+#include "rendering/density_painter.h"
 #include "rendering/detail_level.h"
 #include "rendering/drawing_surface.h"
 #include "rendering/free_areas.h"
@@ -201,7 +202,7 @@ void writeNames(DrawingSurface& surface, const AirPicture& air, const AirView& v
 }
 
 /// The level of detail by the rectangle that contains the robots on the picture.
-DetailLevel levelOf(const AirView& view, const RunSnapshot& snapshot) {
+DetailLevel levelOf(const AirView& view, const RunSnapshot& snapshot, bool has_density) {
   std::size_t count = 0;
   TPoint2D low, high;
   for (const auto& robot : snapshot.robots) {
@@ -214,7 +215,7 @@ DetailLevel levelOf(const AirView& view, const RunSnapshot& snapshot) {
     high = count == 0 ? pixel : TPoint2D(std::max(high.x, pixel.x), std::max(high.y, pixel.y));
     ++count;
   }
-  return DetailLevel::of(count, (high.x - low.x) * (high.y - low.y));
+  return DetailLevel::of(count, (high.x - low.x) * (high.y - low.y), has_density);
 }
 
 /// Marks those of many robots that are too small on the picture to be seen with a dot in their colour.
@@ -243,20 +244,22 @@ std::vector<std::uint8_t> selectShown(const std::vector<std::uint8_t>& shown, st
 }  // namespace
 
 void drawAirOverlay(const AirPicture& air, const RunSnapshot& snapshot, const Fleet& fleet, const RunPaths& paths,
-                    const TopViewLayers& layers, const std::vector<std::uint8_t>& shown) {
+                    const ViewLayers& layers, const std::vector<std::uint8_t>& shown,
+                    const std::optional<DensityMap>& density) {
   const AirView view(air);
   const auto colors = robotColors(fleet);
-  const DetailLevel level = levelOf(view, snapshot);
+  const DetailLevel level = levelOf(view, snapshot, density.has_value());
+  if (density) tintGround(air, *density);
   DrawingSurface surface(air.picture);
-  if (layers.paths && level.has_paths)
-    drawAirPaths(surface, air, view, snapshot, colors, paths, layers.paths_from_s, level);
+  if (layers.paths && level.has_paths) drawAirPaths(surface, air, view, snapshot, colors, paths, layers, level);
   if (layers.sensors)
     drawRanges(surface, air, view, snapshot, fleet, selectShown(shown, snapshot.robots.size(), level));
   if (level.is_crowded) {
-    drawDots(surface, air, view, snapshot, fleet, colors, level);
+    if (level.has_robots) drawDots(surface, air, view, snapshot, fleet, colors, level);
   } else if (layers.names) {
     writeNames(surface, air, view, snapshot, fleet, colors);
   }
+  if (density) drawDensityLegend(surface, *density, air.scale);
   surface.copyTo(air.picture);
 }
 

@@ -33,7 +33,7 @@ struct AirOverlay : testing::Test {
   }
 
   /// Number of changed pixels with these layers, behind a wall that fills the picture at this depth; 0 for none.
-  int changed(const TopViewLayers& layers, double wall_m) {
+  int changed(const ViewLayers& layers, double wall_m) {
     cv::Mat picture(300, 400, CV_8UC3, cv::Scalar(200, 200, 200));
     const cv::Mat before = picture.clone();
     constexpr double n = kNearPlane_m, f = kFarPlane_m;
@@ -49,7 +49,7 @@ struct AirOverlay : testing::Test {
   cv::Mat drawnPaths() {
     cv::Mat picture(300, 400, CV_8UC3, cv::Scalar(0, 0, 0));
     const DepthBuffer sky{400, 300, std::vector<float>(400UL * 300, 1)};
-    const TopViewLayers layers{.paths = true, .sensors = false, .names = false};
+    const ViewLayers layers{.paths = true, .sensors = false, .names = false};
     drawAirOverlay({picture, sky, camera, {-5, 0, 2, 0, 0.35, 0}}, snapshot, fleet, paths, layers, {});
     return picture;
   }
@@ -84,17 +84,17 @@ TEST_F(AirOverlay, FadesOldPathsWhereTheyCoverThePicture) {
 }
 
 TEST_F(AirOverlay, HidesPathsAndRangesBehindNearerThings) {
-  const TopViewLayers path{.paths = true, .sensors = false, .names = false};
+  const ViewLayers path{.paths = true, .sensors = false, .names = false};
   EXPECT_GT(changed(path, 0), 100) << "before the sky";
   EXPECT_GT(changed(path, 20), 100) << "before a far wall";
   EXPECT_EQ(changed(path, 2), 0) << "behind a near wall";
-  const TopViewLayers ranges{.paths = false, .sensors = true, .names = false};
+  const ViewLayers ranges{.paths = false, .sensors = true, .names = false};
   EXPECT_GT(changed(ranges, 20), 1000);
   EXPECT_EQ(changed(ranges, 2), 0);
 }
 
 TEST_F(AirOverlay, WritesNamesAboveRobotsAlsoBehindThings) {
-  const TopViewLayers names{.paths = false, .sensors = false, .names = true};
+  const ViewLayers names{.paths = false, .sensors = false, .names = true};
   EXPECT_GT(changed(names, 20), 200);
   EXPECT_EQ(changed(names, 2), changed(names, 20));
 }
@@ -118,7 +118,9 @@ TEST_F(AirOverlay, WritesANameBelowOrBesideARobotWithoutRoomAbove) {
   EXPECT_TRUE(writes_name(top_rad + upper_rad));
 }
 
-TEST_F(AirOverlay, DrawsNothingWithoutLayers) { EXPECT_EQ(changed({false, false, false}, 20), 0); }
+TEST_F(AirOverlay, DrawsNothingWithoutLayers) {
+  EXPECT_EQ(changed({.paths = false, .sensors = false, .names = false}, 20), 0);
+}
 
 }  // namespace
 }  // namespace robosim

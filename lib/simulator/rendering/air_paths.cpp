@@ -1,5 +1,6 @@
 #include "rendering/air_paths.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "rendering/ground_painter.h"
@@ -92,31 +93,44 @@ class VisiblePath {
 }  // namespace
 
 void drawAirPaths(DrawingSurface& surface, const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
-                  const std::vector<Color>& colors, const RunPaths& paths, double from_s, const DetailLevel& level) {
+                  const std::vector<Color>& colors, const RunPaths& paths, const ViewLayers& layers,
+                  const DetailLevel& level) {
   const double width_px = 2 * air.scale * level.path_share;
-  const double recent_from_s = std::max(from_s, snapshot.time_s - kRecentPath_s);
-  const std::vector<VisiblePath> none(snapshot.robots.size(), {air, view});
-  auto old = none, recent = none;
-  double length_px = 0;
-  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
-    old[i].add(paths.between(i, from_s, recent_from_s), paths.positionAt(i, recent_from_s));
-    length_px += old[i].length();
-    std::optional<TPoint2D> end;
-    if (snapshot.robots[i].isPresent()) {
-      const auto& pose = snapshot.robots[i].world_from_robot;
-      end.emplace(pose.x, pose.y);
+  const double recent_from_s = std::max(layers.paths_from_s, snapshot.time_s - kRecentPath_s);
+  /// The visible parts of all paths within a time range.
+  const auto visible = [&](double from_s, double to_s) {
+    std::vector<VisiblePath> all(snapshot.robots.size(), {air, view});
+    for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+      if (!layers.shows(i)) continue;
+      std::optional<TPoint2D> end;
+      if (to_s < snapshot.time_s) {
+        end = paths.positionAt(i, to_s);
+      } else if (snapshot.robots[i].isPresent()) {
+        const auto& pose = snapshot.robots[i].world_from_robot;
+        end.emplace(pose.x, pose.y);
+      }
+      all[i].add(paths.between(i, from_s, to_s), end);
     }
-    recent[i].add(paths.between(i, recent_from_s, snapshot.time_s), end);
-  }
-  const auto draw = [&](const std::vector<VisiblePath>& all, float fading) {
+    return all;
+  };
+  const auto draw = [&](const std::vector<VisiblePath>& all, const Color& faded, float fading) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      for (const auto& line : all[i].lines()) surface.polyline(line, width_px, mix(colors[i], kFloorColor, fading));
+      for (const auto& line : all[i].lines()) surface.polyline(line, width_px, mix(colors[i], faded, fading));
     }
   };
-  constexpr float kManyPaleness = 0.6f;
-  const float recent_paleness = level.is_crowded ? kManyPaleness : 0;
-  draw(old, std::max(recent_paleness, pathFading(length_px * width_px / (1.0 * air.picture.cols * air.picture.rows))));
-  draw(recent, recent_paleness);
+  if (level.is_crowded) {
+    constexpr Color kGroundColor{0.74f, 0.735f, 0.71f};
+    constexpr float kNewest = 0.35f;
+    for (const auto& part : trailParts(recent_from_s, snapshot.time_s, kNewest)) {
+      draw(visible(part.from_s, part.to_s), kGroundColor, part.paleness);
+    }
+    return;
+  }
+  const auto old = visible(layers.paths_from_s, recent_from_s);
+  double length_px = 0;
+  for (const auto& path : old) length_px += path.length();
+  draw(old, kFloorColor, pathFading(length_px * width_px / (1.0 * air.picture.cols * air.picture.rows)));
+  draw(visible(recent_from_s, snapshot.time_s), kFloorColor, 0);
 }
 
 }  // namespace robosim

@@ -8,11 +8,11 @@
 
 namespace robosim {
 
-/// Draws the paths of all robots on the ground, where nothing hides them. Where old parts would cover much of the
-/// picture, they fade (path_fading.h).
-/// @param colors of the robots @param from_s earliest time that is drawn @param level with many robots, all paths are
-/// thinner and fade
+/// Draws the paths of the shown robots on the ground, where nothing hides them. Where old parts would cover much of the
+/// picture, they fade; the paths of many robots are thinner, and fade with age (path_fading.h).
+/// @param colors of the robots
 void drawAirPaths(DrawingSurface& surface, const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
-                  const std::vector<Color>& colors, const RunPaths& paths, double from_s, const DetailLevel& level);
+                  const std::vector<Color>& colors, const RunPaths& paths, const ViewLayers& layers,
+                  const DetailLevel& level);
 
 }  // namespace robosim

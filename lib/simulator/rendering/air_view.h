@@ -38,7 +38,8 @@ class AirView {
   /// Whether nothing nearer than `ahead_m` covers a pixel that isOnPicture().
   /// @param slack_m, slack_share by how much, also of the distance, something may be nearer
   bool isVisible(const mrpt::math::TPoint2D& pixel, double ahead_m, double slack_m, double slack_share = 0.01) const {
-    const float depth_m = depthAt(static_cast<int>(pixel.x + 0.5), static_cast<int>(pixel.y + 0.5));
+    const float depth_m =
+        depthAt(static_cast<int>(std::floor(pixel.x + 0.5)), static_cast<int>(std::floor(pixel.y + 0.5)));
     return depth_m == 0 || ahead_m <= depth_m * (1 + slack_share) + slack_m;
   }
   /// [m]; 0 for the sky

@@ -41,7 +41,7 @@ cv::Mat warped(const cv::Mat& pinhole, const CameraView& camera, double turn_rad
 
 }  // namespace
 
-CameraInfo pinholeFor(const CameraView& camera) {
+CameraInfo pinholeFor(const CameraView& camera, std::uint32_t multiple_px) {
   const CameraInfo& info = camera.info;
   if (info.distortion.isNone() && camera.errors.rolling_shutter_s == 0) return info;
   double right = 0, down = 0;
@@ -55,7 +55,8 @@ CameraInfo pinholeFor(const CameraView& camera) {
   if (camera.errors.rolling_shutter_s > 0) right = std::tan(std::min(1.4, std::atan(right) + 0.5));
   const double focal_px = info.focalLength();
   const auto side = [&](double half, std::uint32_t side_min) {
-    const auto px = static_cast<std::uint32_t>(2 * std::ceil(half * focal_px + 1));
+    const double half_px = half * focal_px + 1;
+    const auto px = multiple_px * static_cast<std::uint32_t>(std::ceil(2 * half_px / multiple_px));
     return std::min(kPictureSideMax_px, std::max(side_min, px + (side_min & 1)));
   };
   CameraInfo pinhole = info;

@@ -3,8 +3,10 @@
 #include <future>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/angle_units.h"
 #include "rendering/offscreen_renderer.h"
 
 namespace robosim {
@@ -53,6 +55,44 @@ TEST(CameraPicture, HasTheJpegQuality) {
     return jpeg.size();
   };
   EXPECT_LT(2 * size(20), size(95));
+}
+
+/// The picture of the first robot's camera.
+std::string pictureOf(OffscreenRenderer& renderer, const Fleet& fleet, const CameraView& camera) {
+  std::string jpeg;
+  const std::uint32_t robot = 0;
+  renderer.take(camera, startPoses(fleet), {&robot, 1}, {&jpeg, 1});
+  return jpeg;
+}
+
+TEST(CameraPicture, FollowsTheHeadAsIfTheCameraWasMountedSo) {
+  const LoadedWorld maze = smallMaze();
+  OffscreenRenderer renderer(maze.world, maze.fleet);
+  const auto picture = [&](double yaw_deg, double tilt_deg, double field_of_view_deg, std::vector<CameraAim> aims,
+                           bool is_antialiased, const LensDistortion& lens) {
+    CameraView camera{.info = {160, 120, toRadians(field_of_view_deg), 10, lens},
+                      .robot_from_camera = {0.2, 0.1, 0.3, toRadians(yaw_deg), -toRadians(tilt_deg), 0},
+                      .is_antialiased = is_antialiased,
+                      .aims = std::move(aims)};
+    if (camera.hasErrors()) camera.moment = {.seeds = {1}, .turn_radps = {0}};
+    return pictureOf(renderer, maze.fleet, camera);
+  };
+  const CameraAim aim{toRadians(30), toRadians(-10), 2};
+  for (const bool is_antialiased : {false, true}) {
+    const std::string mounted = picture(20 + 30, 5 - 10, 60 / 2, {}, is_antialiased, {});
+    EXPECT_EQ(picture(20, 5, 60, {aim}, is_antialiased, {}), mounted);
+    EXPECT_EQ(picture(20 + 30, 5 - 10, 60 / 2, {CameraAim{}}, is_antialiased, {}), mounted);
+    EXPECT_NE(picture(20, 5, 60, {CameraAim{}}, is_antialiased, {}), mounted);
+  }
+  const LensDistortion lens{-0.1, 0, 0, 0, 0};
+  const auto decoded = [](const std::string& jpeg) {
+    return cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
+  };
+  // With a lens, both are taken from rendered pictures of different sizes.
+  EXPECT_LT(cv::norm(decoded(picture(20, 5, 60, {aim}, false, lens)), decoded(picture(50, -5, 30, {}, false, lens)),
+                     cv::NORM_L1) /
+                (160 * 120 * 3),
+            0.5);
 }
 
 TEST(CameraPicture, HasMixedColoursAlongEdgesIfAntialiased) {

@@ -7,6 +7,7 @@
 
 #include "rendering/air_overlay.h"
 #include "rendering/air_view.h"
+#include "rendering/path_fading.h"
 #include "rendering/run_figure.h"
 #include "rendering/snapshot_run.h"
 #include "rendering/top_view.h"
@@ -55,7 +56,7 @@ struct Swarm {
     }
   }
 
-  cv::Mat fromAbove(const TopViewCamera& camera, const TopViewLayers& layers = {}) const {
+  cv::Mat fromAbove(const TopViewCamera& camera, const ViewLayers& layers = {}) const {
     return TopView(world, fleet).draw(snapshot, paths, camera, layers);
   }
 };
@@ -73,12 +74,58 @@ TEST(DetailLevel, IsFullForFewRobotsAndForRobotsWithRoom) {
   EXPECT_TRUE(DetailLevel::of(101, 100 * 2500).is_crowded);
 }
 
-TEST(DetailLevel, DrawsRobotsAsDotsOfAReadableSizeThatCoverAnEighthOfThePlane) {
-  // 900 pixels each: π r² = 0.12 · 900 gives r = 5.9, more than the usual minimum of 3. 75 pixels: r = 1.7.
-  EXPECT_EQ(DetailLevel::of(1000, 900e3).radius_min_px, 3);
-  EXPECT_NEAR(DetailLevel::of(10000, 750e3).radius_min_px, 1.69, 0.01);
+TEST(DetailLevel, EnlargesManyRobotsNoMoreThanNecessary) {
+  // 900 pixels each: π r² = 0.12 · 900 gives r = 5.9, more than 1.5, which is seen. 40 pixels: r = 1.24. 10: r = 0.6.
+  EXPECT_EQ(DetailLevel::of(1000, 900e3).radius_min_px, 1.5);
+  EXPECT_NEAR(DetailLevel::of(10000, 400e3).radius_min_px, 1.236, 0.001);
+  EXPECT_EQ(DetailLevel::of(10000, 100e3).radius_min_px, 1);
+  EXPECT_EQ(DetailLevel::of(10, 100).radius_min_px, 3) << "few robots";
   EXPECT_TRUE(DetailLevel::of(1000, 900e3).has_paths);
   EXPECT_FALSE(DetailLevel::of(10000, 750e3).has_paths);
+}
+
+TEST(DetailLevel, ShowsADensityMapInsteadOfManyRobots) {
+  const DetailLevel many = DetailLevel::of(1000, 900e3, true), few = DetailLevel::of(10, 900e3, true);
+  EXPECT_FALSE(many.has_robots);
+  EXPECT_FALSE(many.has_paths);
+  EXPECT_TRUE(few.has_robots);
+  EXPECT_TRUE(few.has_paths);
+}
+
+TEST(DetailLevel, FadesPathsOfManyRobotsWithAge) {
+  const auto parts = trailParts(0, 20, 0.35F);
+  EXPECT_EQ(parts.front().from_s, 0);
+  EXPECT_FLOAT_EQ(parts.front().paleness, 0.92F);
+  EXPECT_EQ(parts.back().from_s, 16);
+  EXPECT_EQ(parts.back().to_s, 20);
+  EXPECT_FLOAT_EQ(parts.back().paleness, 0.35F);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    EXPECT_EQ(parts[i].from_s, parts[i - 1].to_s);
+    EXPECT_LT(parts[i].paleness, parts[i - 1].paleness);
+  }
+}
+
+/// Darkness of the path of robot 500 at a place along it.
+double darknessAt(const cv::Mat& picture, const GroundView& view, double x_m) {
+  const TPoint2D pixel = view.toPixel({x_m, 12.5});
+  const auto& seen =
+      picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
+  return 3 * 255.0 - seen[0] - seen[1] - seen[2];
+}
+
+TEST(DetailLevel, DrawsNewerPartsOfPathsOfManyRobotsDarkerAndOldOnesNot) {
+  Swarm swarm;
+  const auto drawn = [&](double time_s) {
+    // Robot 500, in column 20, has driven from 20.1 to 20.9 within the second before step 1, and then stands.
+    swarm.snapshot.step = 1;
+    swarm.snapshot.time_s = time_s;
+    const TopViewCamera camera = TopViewCamera::showing(swarm.world.bounds, 848, 548);
+    return darknessAt(swarm.fromAbove(camera), TopView::groundView(swarm.snapshot, camera), 20.3);
+  };
+  const double new_one = drawn(1), old_one = drawn(15), gone = drawn(30);
+  EXPECT_GT(new_one, 1.5 * old_one);
+  EXPECT_GT(old_one, 10);
+  EXPECT_LT(gone, 10) << "the floor";
 }
 
 TEST(DetailLevel, LeavesTheFloorOfATopViewVisible) {

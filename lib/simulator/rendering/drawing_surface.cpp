@@ -325,6 +325,39 @@ void DrawingSurface::fillCells(const FloorPlan& plan, const TPose2D& world_from_
   });
 }
 
+void DrawingSurface::fillGrid(const cv::Mat& levels, const TPoint2D& upper_left, double cell_m,
+                              std::span<const Color> colors, double opacity) {
+  const Owned<cairo_surface_t> cells(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, levels.cols, levels.rows));
+  check(cairo_surface_status(cells.get()));
+  const std::size_t stride = static_cast<std::size_t>(cairo_image_surface_get_stride(cells.get()));
+  for (int row = 0; row < levels.rows; ++row) {
+    auto* const pixels = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(cells.get()) +
+                                                          static_cast<std::size_t>(row) * stride);
+    for (int column = 0; column < levels.cols; ++column) {
+      const std::uint8_t level = levels.at<std::uint8_t>(row, column);
+      if (level == 0) continue;
+      const Color& color = colors[level - 1U];
+      const auto part = [&](std::size_t i) {
+        return static_cast<std::uint32_t>(std::lround(static_cast<double>(color[i]) * opacity * 255));
+      };
+      pixels[column] =
+          static_cast<std::uint32_t>(std::lround(opacity * 255)) << 24 | part(0) << 16 | part(1) << 8 | part(2);
+    }
+  }
+  cairo_surface_mark_dirty(cells.get());
+  const TPoint2D origin = view().toPixel(upper_left);
+  const double cell_px = cell_m * view().pixelsPerMetre();
+  paint({}, [&](cairo_t& context) {
+    cairo_save(&context);
+    cairo_translate(&context, origin.x, origin.y);
+    cairo_scale(&context, cell_px, cell_px);
+    cairo_set_source_surface(&context, cells.get(), 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(&context), CAIRO_FILTER_NEAREST);
+    cairo_paint(&context);
+    cairo_restore(&context);
+  });
+}
+
 void DrawingSurface::lay(const DrawingSurface& layer) {
   cairo_save(image_context_.get());
   cairo_identity_matrix(image_context_.get());

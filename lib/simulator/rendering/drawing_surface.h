@@ -66,6 +66,11 @@ class DrawingSurface {
   /// The occupied cells of a map: up to 10,000 rectangles of cells are one path, more are one image without
   /// interpolation of its cells.
   void fillCells(const FloorPlan&, const mrpt::math::TPose2D& world_from_map, const Color&);
+  /// Square cells in colours, as one image without interpolation.
+  /// @param levels 8 bits: 0 for a cell without colour, else the number of its colour, from 1; row 0 is the highest
+  /// @param upper_left corner, world frame @param opacity [0, 1]
+  void fillGrid(const cv::Mat& levels, const mrpt::math::TPoint2D& upper_left, double cell_m,
+                std::span<const Color> colors, double opacity);
   /// Draws the picture of a surface of the same view and scale over this one.
   void lay(const DrawingSurface& layer);
 

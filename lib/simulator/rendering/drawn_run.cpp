@@ -27,12 +27,34 @@ void RunEvents::addMessage(std::size_t sender, const std::optional<mrpt::math::T
   all_.push_back({time_s, {RunEvent::Kind::message, sender, *at}});
 }
 
+void applyLayers(DrawnRun& run, const ViewLayers& layers, const World& world, const Fleet& fleet) {
+  run.has_names = layers.names;
+  run.has_starts = layers.starts;
+  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
+    if (layers.shows(i)) continue;
+    if (i < run.paths.size()) run.paths[i].clear();
+    if (i < run.path_times_s.size()) run.path_times_s[i].clear();
+    if (i < run.world_from_robot.size()) run.world_from_robot[i].reset();
+  }
+  std::erase_if(run.events, [&](const RunEvent& event) { return !layers.events || !layers.shows(event.robot); });
+  std::vector<std::optional<mrpt::math::TPoint2D>> at;
+  for (const auto& pose : run.world_from_robot) {
+    auto& place = at.emplace_back();
+    if (pose) place.emplace(pose->x, pose->y);
+  }
+  run.density = densityOf(layers, world, fleet, at, run.paths);
+  if (!layers.paths) run.paths.clear();
+}
+
 DetailLevel detailOf(const World& world, const DrawnRun& run, double px_per_m) {
   const Bounds2D area = areaOf(world, run);
-  const auto robots = static_cast<std::size_t>(std::count_if(run.world_from_robot.begin(), run.world_from_robot.end(),
-                                                             [](const auto& pose) { return pose.has_value(); }));
-  return DetailLevel::of(std::max(robots, run.paths.size()),
-                         (area.x_max - area.x_min) * (area.y_max - area.y_min) * px_per_m * px_per_m);
+  std::size_t robots = 0;
+  for (std::size_t i = 0; i < std::max(run.world_from_robot.size(), run.paths.size()); ++i) {
+    const bool is_there = i < run.world_from_robot.size() && run.world_from_robot[i];
+    robots += is_there || (i < run.paths.size() && !run.paths[i].empty()) ? 1 : 0;
+  }
+  return DetailLevel::of(robots, (area.x_max - area.x_min) * (area.y_max - area.y_min) * px_per_m * px_per_m,
+                         run.density.has_value());
 }
 
 DrawnRun reduced(const World& world, DrawnRun run, double px_per_m) {
@@ -41,6 +63,9 @@ DrawnRun reduced(const World& world, DrawnRun run, double px_per_m) {
   run.has_starts = false;
   run.sensed.clear();
   if (!level.has_paths) run.paths.clear();
+  if (!level.has_robots) {
+    std::erase_if(run.events, [](const RunEvent& event) { return event.kind != RunEvent::Kind::gold; });
+  }
   return run;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +9,9 @@
 
 #include "geometry/shapes/solid.h"
 #include "hardware/sensor_info.h"
+#include "rendering/density_map.h"
 #include "rendering/detail_level.h"
+#include "rendering/path_gap.h"
 #include "world/changed_objects.h"
 #include "world/world.h"
 
@@ -62,25 +62,25 @@ struct SensedArea {
   std::vector<std::vector<mrpt::math::TPoint2D>> lines{};  ///< sightLines()
 };
 
-/// Separates two pieces of a path, between which the way is unknown: the robot was absent, or moved to another place.
-inline const mrpt::math::TPoint2D kPathGap{std::numeric_limits<double>::quiet_NaN(),
-                                           std::numeric_limits<double>::quiet_NaN()};
-inline bool isGap(const mrpt::math::TPoint2D& point) { return std::isnan(point.x); }
-
 /// Content of a plan or figure. Vectors by robot are in the world's order, or empty.
 struct DrawnRun {
   std::string title{};  ///< empty: the world's name
   /// Of each robot's centre, world frame; may be empty. Pieces are separated by kPathGap.
   std::vector<std::vector<mrpt::math::TPoint2D>> paths{};
+  /// Times of the points of `paths` [s], by which the paths of many robots fade; empty: equal times between points.
+  std::vector<std::vector<double>> path_times_s{};
   /// Final poses; a robot without one is not drawn.
   std::vector<std::optional<mrpt::math::TPose2D>> world_from_robot{};
   std::vector<RunEvent> events{};
   std::vector<SensedArea> sensed{};
-  ChangedObjects objects{};  ///< where they are then, instead of the world's
-  bool has_names = true;     ///< whether the names of robots and hot objects are written
-  bool has_starts = true;    ///< whether the beginning of each path has a ring
+  ChangedObjects objects{};             ///< where they are then, instead of the world's
+  bool has_names = true;                ///< whether the names of robots and hot objects are written
+  bool has_starts = true;               ///< whether the beginning of each path has a ring
+  std::optional<DensityMap> density{};  ///< drawn on the floor; of a crowded picture instead of paths and robots
 };
 
+/// Leaves out the robots, paths and events that layers do not show, and adds the density map.
+void applyLayers(DrawnRun&, const ViewLayers&, const World&, const Fleet&);
 /// The area that a picture of a run covers: the world's bounds, every object, map and path.
 Bounds2D areaOf(const World&, const DrawnRun&);
 /// The run as far as it can be drawn without covering the plane, in a picture of a scale (DetailLevel).

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hardware/neighbour_quantities.h"
+#include "hardware/numbered_quantities.h"
 
 namespace robosim {
 namespace {
@@ -14,11 +14,6 @@ using mrpt::math::TPoint2D;
 constexpr double kThinBeam_rad = 0.02;
 
 constexpr int kCirclePieces = 72;
-
-bool measuresNeighbours(const SensorInfo& sensor) {
-  const std::size_t count = sensor.quantities.size() / 3;
-  return sensor.kind == SensorKind::values && count > 0 && sensor.quantities == neighbourQuantities(count);
-}
 
 }  // namespace
 
@@ -37,9 +32,9 @@ std::vector<std::vector<TPoint2D>> sightLines(const RobotSnapshot& robot, const 
         circle.push_back(to_world(at.x + range_m * std::cos(angle_rad), at.y + range_m * std::sin(angle_rad)));
       }
     }
-  } else if (const auto* values = std::get_if<Values>(&measurement); values && measuresNeighbours(sensor)) {
+  } else if (const auto* values = std::get_if<Values>(&measurement); values && sightingSize(sensor) > 0) {
     const auto at = sensor.beams.empty() ? mrpt::math::TPose3D() : sensor.beams.front().robot_from_beam;
-    for (std::size_t i = 0; i + 2 < values->values.size(); i += 3) {
+    for (std::size_t i = 0; i + 2 < values->values.size(); i += sightingSize(sensor)) {
       if (values->values[i] < 0) continue;
       const double range_m = values->values[i + 1], angle_rad = at.yaw + values->values[i + 2];
       lines.push_back(

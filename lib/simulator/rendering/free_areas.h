@@ -19,8 +19,8 @@ std::vector<std::vector<mrpt::math::TPoint2D>> freeAreas(const RobotSnapshot& ro
                                                          const Echoes& echoes, double arc_piece_m);
 
 /// What a robot has measured by range and bearing or by range alone, as polylines [m, world frame]: from the sensor to
-/// each neighbour or landmark (Values of neighbourQuantities()); a circle about the sensor through each beacon
-/// (BeaconRanges), whose direction it does not measure. Empty for other kinds of sensor.
+/// each neighbour, landmark, light or mark (Values of a sensor with a sightingSize()); a circle about the sensor
+/// through each beacon (BeaconRanges), whose direction it does not measure. Empty for other kinds of sensor.
 std::vector<std::vector<mrpt::math::TPoint2D>> sightLines(const RobotSnapshot& robot, const SensorInfo& sensor,
                                                           const Measurement& measurement);
 

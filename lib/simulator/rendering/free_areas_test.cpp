@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hardware/neighbour_quantities.h"
+#include "hardware/numbered_quantities.h"
 
 namespace robosim {
 namespace {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <Eigen/Dense>
 #include <GL/gl.h>
 #include <GL/glext.h>
 
 #include "rendering/shaders.h"
+#include "rendering/view_volume.h"
 
 namespace robosim {
 namespace {
@@ -97,17 +99,26 @@ void Ground::render(const RenderContext& rc) const {
   mesh_.draw({MeshInstance{}});
 }
 
-Shadows::Shadows(Mesh shadows, const Bounds2D& bounds) : bounds_(bounds), mesh_(std::move(shadows)) {}
+Shadows::Shadows(Mesh shadows, const Bounds2D& bounds) : bounds_(bounds), mesh_(std::move(shadows)) {
+  for (const auto& v : mesh_.mesh().vertices) radius_m_ = std::max(radius_m_, std::hypot(v.x_m, v.y_m));
+}
 
 mrpt::opengl::shader_list_t Shadows::requiredShaders() const { return {kShadowShader}; }
 
 void Shadows::render(const RenderContext& rc) const {
+  constexpr float kSeen_px = 3;
+  const ViewVolume view(*rc.state);
+  seen_.clear();
+  std::copy_if(instances_.begin(), instances_.end(), std::back_inserter(seen_), [&](const MeshInstance& instance) {
+    const mrpt::math::TPoint3Df center(instance.x_m, instance.y_m, 0);
+    return view.mayIntersect(center, radius_m_) && view.radiusPx(center, radius_m_) >= kSeen_px;
+  });
   setGround(rc, bounds_, kShadowBrightness);
   // Drawn over the ground at equal depth; the depth buffer stays that of the ground.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(-1, -1);
   glDepthMask(GL_FALSE);
-  mesh_.draw(instances_);
+  mesh_.draw(seen_);
   glDepthMask(GL_TRUE);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }

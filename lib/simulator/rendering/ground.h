@@ -18,8 +18,8 @@ class Ground : public Drawable {
   mutable GlMesh mesh_;
 };
 
-/// Shadows of upright objects on the ground. Each shadow redraws the ground at a lower brightness, so overlapping
-/// shadows are no darker than one.
+/// Shadows of upright objects on the ground, except those of a radius of less than 3 pixels. Each shadow redraws the
+/// ground at a lower brightness, so overlapping shadows are no darker than one.
 class Shadows : public Drawable {
  public:
   /// @param shadows on z = 0, relative to each instance's position; not rotated
@@ -34,7 +34,9 @@ class Shadows : public Drawable {
  private:
   Bounds2D bounds_;
   std::vector<MeshInstance> instances_;
+  float radius_m_ = 0;  ///< of a circle about the instance's position that contains its shadows
   mutable GlMesh mesh_;
+  mutable std::vector<MeshInstance> seen_;  ///< in this frame
 };
 
 /// Adds the shadow of an upright prism that stands on the ground, with this convex outline, counter-clockwise.

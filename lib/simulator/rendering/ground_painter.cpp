@@ -71,24 +71,44 @@ void drawFloor(DrawingSurface& surface, const Bounds2D& b) {
   surface.outline(floor, 1, mix(kGridColor, kInkColor, 0.3f));
 }
 
+namespace {
+
+void drawMap(DrawingSurface& surface, const WorldMap& map) {
+  surface.fillCells(map.plan, map.world_from_map, map.color);
+  for (const auto& box : map.plan.boxes) {
+    const Outline shape = OrientedBox::from(map.world_from_map + box.map_from_box, box.length_m, box.width_m);
+    surface.fill(shape, map.color);
+    surface.outline(shape, 1.5, map.color);  // walls of a map may be thinner than a visible line
+  }
+}
+
+}  // namespace
+
+void drawFloorAreas(DrawingSurface& surface, const World& world, const std::vector<WorldObject>& objects) {
+  for (const auto& map : world.maps) {
+    if (map.isFloor()) drawMap(surface, map);
+  }
+  for (const auto& object : objects) {
+    if (object.body.isFloor()) surface.fill(object.body.solid().outline, object.body.color);
+  }
+}
+
 void drawMaps(DrawingSurface& surface, const World& world) {
   for (const auto& map : world.maps) {
-    surface.fillCells(map.plan, map.world_from_map, map.color);
-    for (const auto& box : map.plan.boxes) {
-      const Outline shape = OrientedBox::from(map.world_from_map + box.map_from_box, box.length_m, box.width_m);
-      surface.fill(shape, map.color);
-      surface.outline(shape, 1.5, map.color);  // walls of a map may be thinner than a visible line
-    }
+    if (!map.isFloor()) drawMap(surface, map);
   }
 }
 
 void drawObjects(DrawingSurface& surface, const std::vector<WorldObject>& objects) {
   std::vector<const Body*> bodies;
-  for (const auto& object : objects) bodies.push_back(&object.body);
+  for (const auto& object : objects) {
+    if (!object.body.isFloor()) bodies.push_back(&object.body);
+  }
   std::stable_sort(bodies.begin(), bodies.end(),
                    [](const Body* a, const Body* b) { return a->heights().z_max_m < b->heights().z_max_m; });
   for (const Body* body : bodies) {
     if (body->heat_celsius > 0) surface.glow(body->solid().outline, 26, kGlowColor);
+    if (body->light_cd > 0) surface.glow(body->solid().outline, 26, body->color);
   }
   for (const Body* body : bodies) {
     const Outline shape = body->solid().outline;

@@ -28,9 +28,11 @@ std::vector<Color> robotColors(const Fleet&);
 double gridStep(const GroundView&);
 /// The ground within the world's bounds, with a grid.
 void drawFloor(DrawingSurface&, const Bounds2D& bounds);
+/// What is painted on it: the maps without height, and the objects that are not above it.
+void drawFloorAreas(DrawingSurface&, const World&, const std::vector<WorldObject>& objects);
 /// The walls of the world's maps.
 void drawMaps(DrawingSurface&, const World&);
-/// Objects in their colours, in order of height, hot ones with a glow.
+/// Objects above the floor in their colours, in order of height, hot ones and lights with a glow.
 void drawObjects(DrawingSurface&, const std::vector<WorldObject>& objects);
 /// A disc with a mark in the direction of its heading; all in pixels.
 void drawRobot(DrawingSurface&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,

@@ -14,7 +14,7 @@ namespace robosim {
 namespace {
 
 /// Radii in the picture [pixels] below which lower levels of detail are drawn.
-constexpr float kRoughBelow_px = 14, kTinyBelow_px = 5;
+constexpr float kRoughBelow_px = 14, kTinyBelow_px = 5, kSpeckBelow_px = 2;
 
 template <typename Element>
 void bindAttribute(unsigned location, int size, unsigned type, bool normalized, std::size_t offset) {
@@ -59,7 +59,7 @@ void GlMesh::free() {
   instances_.destroy();
 }
 
-InstancedMesh::InstancedMesh(Mesh full, Mesh rough, Mesh tiny) {
+InstancedMesh::InstancedMesh(Mesh full, Mesh rough, Mesh tiny, Mesh speck) {
   float low_m = 1e9f, high_m = -1e9f, around_m = 0;
   for (const auto& v : full.vertices) {
     low_m = std::min(low_m, v.z_m);
@@ -71,6 +71,7 @@ InstancedMesh::InstancedMesh(Mesh full, Mesh rough, Mesh tiny) {
   levels_.push_back({GlMesh(std::move(full)), std::numeric_limits<float>::infinity(), {}});
   if (!rough.vertices.empty()) levels_.push_back({GlMesh(std::move(rough)), kRoughBelow_px, {}});
   if (!tiny.vertices.empty()) levels_.push_back({GlMesh(std::move(tiny)), kTinyBelow_px, {}});
+  if (!speck.vertices.empty()) levels_.push_back({GlMesh(std::move(speck)), kSpeckBelow_px, {}});
 }
 
 mrpt::opengl::shader_list_t InstancedMesh::requiredShaders() const { return {kSolidShader}; }

@@ -41,8 +41,8 @@ class GlMesh {
 /// Any number of objects of equal shape, drawn by one OpenGL call per level of detail after culling.
 class InstancedMesh : public Drawable {
  public:
-  /// @param rough, tiny lower levels of detail for small sizes on the picture; empty if unused
-  explicit InstancedMesh(Mesh full, Mesh rough = {}, Mesh tiny = {});
+  /// @param rough, tiny, speck lower levels of detail for small sizes on the picture; empty if unused
+  explicit InstancedMesh(Mesh full, Mesh rough = {}, Mesh tiny = {}, Mesh speck = {});
 
   /// To be updated before each frame.
   std::vector<MeshInstance>& instances() { return instances_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "rendering/density_painter.h"
+
 namespace robosim {
 namespace {
 
@@ -20,8 +22,14 @@ LegendEntry LegendEntry::ofEnd() {
   return {"end", kEndMark_px, [](RunPainter& painter, const TPoint2D& at) { painter.paintEnd(at, kMarkColor); }};
 }
 
+LegendEntry LegendEntry::ofDensity(const DensityMap& map) {
+  return {map.legend(), kDensityScale_px,
+          [](RunPainter& painter, const TPoint2D& at) { painter.paintDensityScale(at); }};
+}
+
 std::vector<LegendEntry> makeLegend(const DrawnRun& run) {
   std::vector<LegendEntry> entries;
+  if (run.density) entries.push_back(LegendEntry::ofDensity(*run.density));
   const std::pair<SensorKind, const char*> sensors[] = {{SensorKind::sonar, "sonar"},
                                                         {SensorKind::laser, "laser"},
                                                         {SensorKind::infrared, "infrared"},

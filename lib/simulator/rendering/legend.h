@@ -16,9 +16,10 @@ struct LegendEntry {
 
   static LegendEntry ofStart();
   static LegendEntry ofEnd();
+  static LegendEntry ofDensity(const DensityMap&);
 };
 
-/// Entries for what a run contains: ranges of sensors, starts and ends of paths, events.
+/// Entries for what a run contains: density, ranges of sensors, starts and ends of paths, events.
 std::vector<LegendEntry> makeLegend(const DrawnRun&);
 
 /// A legend, in as many lines as its width requires.

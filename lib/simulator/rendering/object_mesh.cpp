@@ -26,14 +26,15 @@ void addBody(Mesh& mesh, const Body& body, int sides) {
 
 std::vector<Body> bodiesOf(const WorldMap& map) {
   std::vector<Solid> solids;
-  addSolids(map.plan, map.world_from_map, map.heights(), solids);
+  const double height_m = map.isFloor() ? kPaint_m : map.height_m;
+  addSolids(map.plan, map.world_from_map, {0, height_m}, solids);
   std::vector<Body> bodies;
   for (const auto& solid : solids) {
     const auto& box = std::get<OrientedBox>(solid.outline);
     bodies.push_back({Cube{2 * box.half_length_m, 2 * box.half_width_m},
                       {box.center.x, box.center.y, std::atan2(box.axis.y, box.axis.x)},
-                      map.height_m / 2,
-                      map.height_m,
+                      height_m / 2,
+                      height_m,
                       map.color,
                       0});
   }

@@ -81,25 +81,35 @@ OffscreenRenderer::~OffscreenRenderer() = default;
 
 void OffscreenRenderer::take(const CameraView& camera, const SeenWorld& seen, std::span<const std::uint32_t> robots,
                              std::span<std::string> jpegs) {
+  const bool has_aims = !camera.aims.empty();
+  std::vector<CameraView> aimed;
+  if (has_aims) {
+    for (std::size_t i = 0; i < robots.size(); ++i) aimed.push_back(camera.aimedFor(i));
+  }
+  const auto view_of = [&](std::size_t i) -> const CameraView& { return has_aims ? aimed[i] : camera; };
+  // A target exists for each size: those of a camera that zooms would be many.
+  const std::uint32_t multiple_px = has_aims ? 64 : 2;
   std::vector<cv::Mat> pictures(robots.size());
   impl_->thread->run([&](RenderThread::Targets& targets) {
-    const CameraInfo pinhole = camera.hasErrors() ? pinholeFor(camera) : camera.info;
-    CameraInfo rendered = pinhole;
-    if (camera.is_antialiased) {
-      rendered.width_px *= 2;
-      rendered.height_px *= 2;
-    }
-    auto& target = targets.ofSize(rendered.width_px, rendered.height_px);
+    CameraInfo pinhole;
     impl_->show(seen);
     mrpt::img::CImage picture;
     for (std::size_t i = 0; i < robots.size(); ++i) {
+      const CameraView& view = view_of(i);
+      if (i == 0 || has_aims) pinhole = view.hasErrors() ? pinholeFor(view, multiple_px) : view.info;
+      CameraInfo rendered = pinhole;
+      if (view.is_antialiased) {
+        rendered.width_px *= 2;
+        rendered.height_px *= 2;
+      }
+      auto& target = targets.ofSize(rendered.width_px, rendered.height_px);
       const TPose2D& robot = seen.world_from_robot[robots[i]];
       const CPose3D world_from_camera =
-          CPose3D(robot.x, robot.y, impl_->underside_m[robots[i]], robot.phi, 0, 0) + CPose3D(camera.robot_from_camera);
+          CPose3D(robot.x, robot.y, impl_->underside_m[robots[i]], robot.phi, 0, 0) + CPose3D(view.robot_from_camera);
       target.setCamera(*impl_->scene, cameraAt(rendered, world_from_camera));
       target.render_RGB(*impl_->scene, picture);
       pictures[i] = picture.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
-      if (camera.is_antialiased) {
+      if (view.is_antialiased) {
         const cv::Size size(static_cast<int>(pinhole.width_px), static_cast<int>(pinhole.height_px));
         cv::resize(pictures[i], pictures[i], size, 0, 0, cv::INTER_AREA);
       }
@@ -107,10 +117,11 @@ void OffscreenRenderer::take(const CameraView& camera, const SeenWorld& seen, st
   });
   std::vector<unsigned char> bytes;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (camera.hasErrors()) {
-      pictures[i] = withCameraErrors(pictures[i], camera, camera.moment.turn_radps[i], camera.moment.seeds[i]);
+    const CameraView& view = view_of(i);
+    if (view.hasErrors()) {
+      pictures[i] = withCameraErrors(pictures[i], view, camera.moment.turn_radps[i], camera.moment.seeds[i]);
     }
-    cv::imencode(".jpg", pictures[i], bytes, {cv::IMWRITE_JPEG_QUALITY, camera.jpeg_quality});
+    cv::imencode(".jpg", pictures[i], bytes, {cv::IMWRITE_JPEG_QUALITY, view.jpeg_quality});
     jpegs[i].assign(bytes.begin(), bytes.end());
   }
 }

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
+#include "hardware/camera_head.h"
 #include "rendering/air_overlay.h"
 #include "rendering/detail_level.h"
 #include "rendering/drawing_surface.h"
 #include "rendering/ground_painter.h"
+#include "rendering/snapshot_run.h"
 
 namespace robosim {
 namespace {
@@ -131,7 +134,10 @@ cv::Rect Panes::rectOf(std::size_t pane) const {
           std::max(1, edge(row + 1, rows, height_px_) - kGap_px - top)};
 }
 
-cv::Mat Panes::draw(const RunSnapshot& snapshot, const RunPaths& paths) {
+cv::Mat Panes::draw(const RunSnapshot& whole, const RunPaths& paths) {
+  std::optional<RunSnapshot> of_shown;
+  if (!layers_.only.empty()) of_shown = onlyShown(whole, layers_);
+  const RunSnapshot& snapshot = of_shown ? *of_shown : whole;
   cv::Mat picture;
   if (panes_.size() == 1) {
     picture = drawPane(0, snapshot, paths);
@@ -139,7 +145,7 @@ cv::Mat Panes::draw(const RunSnapshot& snapshot, const RunPaths& paths) {
     picture = cv::Mat(height_px_, width_px_, CV_8UC3, cv::Scalar(90, 80, 75));
     for (std::size_t i = 0; i < panes_.size(); ++i) drawPane(i, snapshot, paths).copyTo(picture(rectOf(i)));
   }
-  if (look_.camera_inset) drawInset(picture, snapshot);
+  if (look_.camera_inset) drawInset(picture, whole);
   return picture;
 }
 
@@ -167,13 +173,14 @@ cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const Ru
   }
   const CameraInfo camera = airCamera(index);
   const TPose3D world_from_camera = worldFromAirCamera(pane, snapshot);
-  const bool has_overlay = !snapshot.robots.empty() && (layers_.paths || layers_.sensors || layers_.names ||
-                                                        snapshot.robots.size() > DetailLevel::kManyRobots);
+  const bool has_overlay =
+      !snapshot.robots.empty() && (layers_.paths || layers_.sensors || layers_.names || layers_.density ||
+                                   layers_.visits || snapshot.robots.size() > DetailLevel::kManyRobots);
   DepthBuffer depth;
   cv::Mat picture = render(camera, world_from_camera, snapshot, has_overlay ? &depth : nullptr);
   if (has_overlay && !depth.empty()) {
     drawAirOverlay({picture, depth, camera, world_from_camera, look_.scale}, snapshot, fleet_, paths, layers_,
-                   requestedReadings());
+                   requestedReadings(), densityOf(layers_, world_, fleet_, snapshot, paths));
   }
   return picture;
 }
@@ -198,7 +205,9 @@ void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
     }
     return nullptr;
   };
-  const auto can_show = [&](std::size_t i) { return snapshot.robots[i].isPresent() && camera_of(i); };
+  const auto can_show = [&](std::size_t i) {
+    return layers_.shows(i) && snapshot.robots[i].isPresent() && camera_of(i);
+  };
   std::optional<std::size_t> robot;
   for (const auto& pane : panes_) {
     if (!robot && pane.follow && can_show(*pane.follow)) robot = pane.follow;
@@ -207,7 +216,11 @@ void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
     if (can_show(i)) robot = i;
   }
   if (!robot) return;
-  const SensorInfo& sensor = *camera_of(*robot);
+  SensorInfo sensor = *camera_of(*robot);
+  if (const auto& readings = snapshot.robots[*robot].readings) {
+    const auto aim = aimOf(sensor, *fleet_.robots[*robot].info.sensors, readings->measurements);
+    if (aim) sensor = aimed(std::move(sensor), *aim);
+  }
   constexpr double kShare = 0.28;  // of the picture's width
   const int width = std::max(16, static_cast<int>(picture.cols * kShare));
   CameraInfo camera = sensor.camera;
@@ -229,8 +242,12 @@ void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
 }
 
 std::vector<std::uint8_t> Panes::requestedReadings() const {
-  if (fleet_.robots.size() <= kMaxWithReadings) return {};
+  if (fleet_.robots.size() <= kMaxWithReadings && layers_.only.empty()) return {};
   std::vector<std::uint8_t> wanted(fleet_.robots.size(), 0);
+  const auto selected = static_cast<std::size_t>(std::count(layers_.only.begin(), layers_.only.end(), 1));
+  for (std::size_t i = 0; i < wanted.size() && selected <= kMaxWithReadings; ++i) {
+    wanted[i] = !layers_.only.empty() && layers_.shows(i) ? 1 : 0;
+  }
   for (const auto& pane : panes_) {
     if (pane.follow) wanted[*pane.follow] = 1;
   }
@@ -298,7 +315,7 @@ void Panes::click(const TPoint2D& at, const RunSnapshot& snapshot) {
   TPoint2D pixel_in_pane;
   Pane* const pane = findPane(at, pixel_in_pane);
   if (!pane || pane->is_3d) return;
-  const auto robot = TopView::robotAt(pixel_in_pane, snapshot, fleet_, pane->top);
+  const auto robot = TopView::robotAt(pixel_in_pane, onlyShown(snapshot, layers_), fleet_, pane->top);
   if (!robot && !pane->follow) return;
   if (!robot)
     pane->top.center =
@@ -325,7 +342,7 @@ void Panes::followNext(const RunSnapshot& snapshot) {
     const std::size_t begin = is_first ? 0 : *pane.follow + 1;
     for (std::size_t k = 0; k < robots; ++k) {
       const std::size_t next = (begin + k) % robots;
-      if (!snapshot.robots[next].isPresent()) continue;
+      if (!snapshot.robots[next].isPresent() || !layers_.shows(next)) continue;
       pane.follow = pane.top.follow = next;
       if (is_first) fit(pane, i);
       break;

@@ -57,9 +57,9 @@ class Panes {
 
   void resize(int width_px, int height_px);
   /// The whole picture, BGR.
-  cv::Mat draw(const RunSnapshot& snapshot, const RunPaths& paths);
+  cv::Mat draw(const RunSnapshot& whole, const RunPaths& paths);
 
-  TopViewLayers& layers() { return layers_; }
+  ViewLayers& layers() { return layers_; }
   Look& look() { return look_; }
   /// Flags of the robots whose readings the panes show, by robot; empty for all robots.
   std::vector<std::uint8_t> requestedReadings() const;
@@ -98,7 +98,7 @@ class Panes {
   std::vector<Pane> panes_;
   Draw3d draw_3d_;
   TopView top_view_;
-  TopViewLayers layers_;
+  ViewLayers layers_;
   Look look_;
   double fitted_scale_ = 1;
   int width_px_ = 0, height_px_ = 0;

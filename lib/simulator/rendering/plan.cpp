@@ -24,10 +24,12 @@ std::string planPicture(PictureFormat format, const World& world, const Fleet& f
   figure.text({kPlanLayout.left_px, kPlanLayout.top_px / 2}, title, 13, kInkColor);
   const double y = view.height() - kPlanLayout.bottom_px / 2;
   drawScale(figure, {kPlanLayout.left_px, y});
-  if (!run.paths.empty()) {
+  std::vector<LegendEntry> entries;
+  if (run.density) entries.push_back(LegendEntry::ofDensity(*run.density));
+  if (!run.paths.empty() && run.has_starts) entries.push_back(LegendEntry::ofStart());
+  if (!run.paths.empty()) entries.push_back(LegendEntry::ofEnd());
+  if (!entries.empty()) {
     const auto width_of = [&](const std::string& text) { return figure.textWidth(text, kTextSize_px); };
-    std::vector<LegendEntry> entries{LegendEntry::ofStart(), LegendEntry::ofEnd()};
-    if (!run.has_starts) entries.erase(entries.begin());
     const Legend legend(std::move(entries), kTextSize_px, view.width(), width_of);
     legend.paint(figure, painter, view.width() - kPlanLayout.right_px, y);
   }
@@ -40,13 +42,9 @@ DrawnRun startOf(const Fleet& fleet) {
   return start;
 }
 
-void writePlan(const std::filesystem::path& file, const World& world, const Fleet& fleet, PlanPaths paths,
-               std::span<const std::optional<mrpt::math::TPose2D>> world_from_robot) {
+void writePlan(const std::filesystem::path& file, const World& world, const Fleet& fleet, const DrawnRun& run) {
   const PictureFormat format = requirePictureFormat(file);
   AtomicFile whole(file);
-  DrawnRun run;
-  run.paths.assign(paths.begin(), paths.end());
-  run.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   whole.write(planPicture(format, world, fleet, run));
   whole.commit();
 }

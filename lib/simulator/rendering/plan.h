@@ -1,12 +1,6 @@
 #pragma once
 #include <filesystem>
-#include <optional>
-#include <span>
 #include <string>
-#include <vector>
-
-#include <mrpt/math/TPoint2D.h>
-#include <mrpt/math/TPose2D.h>
 
 #include "rendering/drawn_run.h"
 #include "rendering/picture_format.h"
@@ -15,9 +9,6 @@
 #include "world/world.h"
 
 namespace robosim {
-
-/// Path of each robot's centre, world frame [m]; indexed by robot, in the world's order.
-using PlanPaths = std::span<const std::vector<mrpt::math::TPoint2D>>;
 
 /// The view of the area that a plan covers; the longer side sets the scale.
 PlanView planView(const World&, const DrawnRun&);
@@ -32,12 +23,9 @@ std::string planPicture(PictureFormat, const World&, const Fleet&, const DrawnRu
 DrawnRun startOf(const Fleet&);
 
 /// Writes the plan of a run as a PNG, SVG or PDF file, according to its name.
-/// @param paths may be empty, as may each path in it: then no paths are drawn
-/// @param world_from_robot final poses, as DrawnRun::world_from_robot
 /// @throws ConfigError when the file cannot be created, and std::runtime_error when the disk is full; in both cases no
 /// partial file remains.
-void writePlan(const std::filesystem::path& file, const World&, const Fleet&, PlanPaths paths,
-               std::span<const std::optional<mrpt::math::TPose2D>> world_from_robot);
+void writePlan(const std::filesystem::path& file, const World&, const Fleet&, const DrawnRun&);
 
 /// Checks the file name before a long run.
 /// @throws ConfigError when the name does not end in .png, .svg or .pdf, or nothing can be written there.

@@ -53,9 +53,10 @@ struct Scene10x5 {
 
   /// Draws to the file, and reads it back.
   cv::Mat draw(const fs::path& file) const {
-    writePlan(file, world, fleet, paths, world_from_robot);
+    writePlan(file, world, fleet, run());
     return cv::imread(file.string());
   }
+  DrawnRun run() const { return {.paths = paths, .world_from_robot = world_from_robot}; }
   PlanView view() const { return planView(world, {.paths = paths}); }
   cv::Vec3b at(const cv::Mat& picture, const TPoint2D& place) const {
     const auto pixel = view().toPixel(place);
@@ -196,7 +197,7 @@ TEST_F(PlanFile, DrawsAnEmptyWorldAndARunWithoutPaths) {
   EXPECT_TRUE(colorful(scene.at(scene.draw(folder_ / "no_paths.png"), {4.35, 1.25})));
   World empty;
   empty.bounds = {0, 1, 0, 1};
-  writePlan(folder_ / "empty.png", empty, {}, {}, {});
+  writePlan(folder_ / "empty.png", empty, {}, {});
   EXPECT_FALSE(cv::imread((folder_ / "empty.png").string()).empty());
 }
 
@@ -228,7 +229,7 @@ std::string errorOf(const std::function<void()>& work) {
 TEST_F(PlanFile, IsWrittenInTheFormatOfItsName) {
   const auto beginning = [&](const char* name) {
     const Scene10x5 scene;
-    writePlan(folder_ / name, scene.world, scene.fleet, scene.paths, scene.world_from_robot);
+    writePlan(folder_ / name, scene.world, scene.fleet, scene.run());
     std::string text(5, ' ');
     std::ifstream(folder_ / name).read(text.data(), 5);
     return text;

@@ -39,6 +39,11 @@ class RobotBuilder {
   }
 
   Mesh build() {
+    if (detail_ == Detail::speck) {
+      const double x_m = 0.8 * half_length_m_, y_m = 0.7 * half_width_m_;
+      prism({{x_m, -y_m}, {x_m, y_m}, {-x_m, y_m}, {-x_m, -y_m}}, 0, 1, kPaint, kShadedPaint);
+      return mesh_;
+    }
     if (detail_ == Detail::tiny) {
       prism(hull(has_deck_ ? 1 : 1.4), 0, 1, kPaint, kShadedPaint);
       addArrow(has_deck_ ? 0.42 : 0, 0.3);

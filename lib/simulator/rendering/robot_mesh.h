@@ -4,8 +4,8 @@
 
 namespace robosim {
 
-/// Level of detail: all parts, the parts visible from afar, or those of a robot a few pixels wide.
-enum class Detail { full, rough, tiny };
+/// Level of detail: all parts, the parts visible from afar, those of a robot a few pixels wide, or a block.
+enum class Detail { full, rough, tiny, speck };
 
 /// Mesh of a robot of a model: body, wheels, a heading mark and the visible sensors at their mounting poses. It stands
 /// on z = 0 with its centre at x = y = 0, heading along x; painted parts take the instance's colour.

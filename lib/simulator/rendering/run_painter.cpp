@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
+#include "rendering/density_painter.h"
+#include "rendering/path_fading.h"
 #include "rendering/sensor_colors.h"
 
 namespace robosim {
@@ -12,6 +15,7 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
+constexpr float kNewestTrail = 0.5f;   ///< paleness of the newest parts of the paths of many robots, at most
 constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover at full opacity
 constexpr double kStartRadius_px = kStartMark_px / 2;
 constexpr double kTint = 0.17, kTintMin = 0.03;  ///< opacity of areas measured as free
@@ -59,17 +63,24 @@ RunPainter::RunPainter(Figure& figure, const World& world, const Fleet& fleet, c
 }
 
 void RunPainter::paintGround() {
+  const auto& objects = run_.objects.orThose(world_.objects);
   drawFloor(figure_, world_.bounds);
+  drawFloorAreas(figure_, world_, objects);
+  if (run_.density) drawDensity(figure_, *run_.density);
   paintFreeAreas();
   const float paleness = pathPaleness();
-  for (std::size_t i = 0; i < run_.paths.size(); ++i) paintPath(i, paleness);
+  if (level_.is_crowded) {
+    paintTrails(std::min(paleness, kNewestTrail));
+  } else {
+    for (std::size_t i = 0; i < run_.paths.size(); ++i) paintPath(i, paleness);
+  }
   for (std::size_t i = 0; i < run_.paths.size() && run_.has_starts; ++i) {
     if (!run_.paths[i].empty()) paintStart(view_.toPixel(run_.paths[i].front()), colors_[i]);
   }
   paintEchoes();
   paintSightLines();
   drawMaps(figure_, world_);
-  drawObjects(figure_, run_.objects.orThose(world_.objects));
+  drawObjects(figure_, objects);
 }
 
 void RunPainter::paintFreeAreas() {
@@ -109,6 +120,8 @@ std::vector<TPoint2D> RunPainter::toPixels(std::span<const TPoint2D> places) con
 }
 
 void RunPainter::paintRobots() {
+  if (level_.is_crowded) paintSmallEvents();
+  if (!level_.has_robots) return;
   for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
     const auto at = robotPixel(i);
     if (!at) continue;
@@ -118,20 +131,31 @@ void RunPainter::paintRobots() {
   }
 }
 
-void RunPainter::paintEvents() {
+/// Calls paint(event, pixel) for the events, of several of one robot and kind within a mark's size only the first.
+template <typename Paint>
+void RunPainter::forEachEvent(const Paint& paint) const {
   std::map<std::pair<RunEvent::Kind, std::size_t>, TPoint2D> last;
   for (const auto& event : run_.events) {
     const TPoint2D at = view_.toPixel(event.at);
     const auto [before, is_first] = last.try_emplace({event.kind, event.robot}, at);
     if (!is_first && (at - before->second).norm() < kMarkSpacing_px) continue;
     before->second = at;
-    if (level_.is_crowded && event.kind != RunEvent::Kind::gold) {
-      paintSmallEvent(event.kind, at, colors_[event.robot]);
-      continue;
-    }
+    paint(event, at);
+  }
+}
+
+void RunPainter::paintEvents() {
+  forEachEvent([&](const RunEvent& event, const TPoint2D& at) {
+    if (level_.is_crowded && event.kind != RunEvent::Kind::gold) return;
     marks_.push_back(besideRobots(at));
     paintEvent(event.kind, marks_.back(), colors_[event.robot]);
-  }
+  });
+}
+
+void RunPainter::paintSmallEvents() {
+  forEachEvent([&](const RunEvent& event, const TPoint2D& at) {
+    if (event.kind != RunEvent::Kind::gold) paintSmallEvent(event.kind, at, colors_[event.robot]);
+  });
 }
 
 TPoint2D RunPainter::besideRobots(const TPoint2D& at) const {
@@ -216,6 +240,8 @@ void RunPainter::paintSensor(SensorKind kind, const TPoint2D& at) {
   figure_.polygon(sector, sensorColor(kind), 2 * kTint);
 }
 
+void RunPainter::paintDensityScale(const TPoint2D& at) { drawDensityScale(figure_, at); }
+
 void RunPainter::paintEvent(RunEvent::Kind kind, const TPoint2D& at, const Color& color) {
   switch (kind) {
     case RunEvent::Kind::gold:
@@ -243,8 +269,8 @@ void RunPainter::paintEvent(RunEvent::Kind kind, const TPoint2D& at, const Color
 }
 
 void RunPainter::paintSmallEvent(RunEvent::Kind kind, const TPoint2D& at, const Color& color) {
-  const double half_px = std::max(1.5, level_.radius_min_px - 1);
-  if (kind == RunEvent::Kind::stall) return paintCross(at, half_px, 1, kStopColor);
+  constexpr double half_px = 1.5;
+  if (kind == RunEvent::Kind::stall) return paintCross(at, half_px, 0.8, mix(kStopColor, kFloorColor, 0.45f));
   const TPoint2D corners[] = {
       {at.x, at.y - half_px}, {at.x + half_px, at.y}, {at.x, at.y + half_px}, {at.x - half_px, at.y}};
   figure_.polygon(corners, mix(color, {0, 0, 0}, 0.25f));
@@ -288,11 +314,53 @@ void RunPainter::paintPath(std::size_t robot, float paleness) {
   }
   const Color color = mix(colors_[robot], kFloorColor, paleness);
   for (const auto& [width_px, paint] : {std::pair{style_.path_px + 1.6, kWhite}, std::pair{style_.path_px, color}}) {
-    if (level_.is_crowded && width_px > style_.path_px) continue;  // a rim would cut the other paths into pieces
     for (auto begin = path.begin(); begin != path.end();) {
       const auto end = std::find_if(begin, path.end(), isGap);
       figure_.polyline({begin, end}, width_px, paint);
       begin = std::find_if_not(end, path.end(), isGap);
+    }
+  }
+}
+
+/// The paths of many robots, older parts paler and below newer ones of all robots. They have no rims, which would cut
+/// the other paths into pieces.
+void RunPainter::paintTrails(float newest) {
+  const auto time_of = [&](std::size_t robot, std::size_t point) {
+    return robot < run_.path_times_s.size() ? run_.path_times_s[robot][point] : static_cast<double>(point);
+  };
+  double from_s = std::numeric_limits<double>::infinity(), to_s = -from_s;
+  for (std::size_t i = 0; i < run_.paths.size(); ++i) {
+    if (run_.paths[i].empty()) continue;
+    from_s = std::min(from_s, time_of(i, 0));
+    to_s = std::max(to_s, time_of(i, run_.paths[i].size() - 1));
+  }
+  const auto parts = trailParts(from_s, to_s, newest);
+  for (const auto& part : parts) {
+    for (std::size_t i = 0; i < run_.paths.size(); ++i) {
+      const auto& path = run_.paths[i];
+      const Color color = mix(colors_[i], kFloorColor, part.paleness);
+      std::vector<TPoint2D> piece;
+      const auto finish = [&] {
+        if (piece.size() > 1) figure_.polyline(piece, style_.path_px, color);
+        piece.clear();
+      };
+      for (std::size_t k = 0; k < path.size(); ++k) {
+        if (isGap(path[k])) {
+          finish();
+          continue;
+        }
+        // A line between two points belongs to the part in which it ends.
+        const double time_s = time_of(i, k);
+        const bool is_older = time_s < part.from_s;
+        if (is_older) piece.clear();
+        if (!is_older && time_s > part.to_s) break;
+        piece.push_back(view_.toPixel(path[k]));
+      }
+      const bool is_newest = &part == &parts.back();
+      if (is_newest && i < run_.world_from_robot.size() && !piece.empty()) {
+        if (const auto end = robotPixel(i)) piece.push_back(*end);
+      }
+      finish();
     }
   }
 }

@@ -28,9 +28,9 @@ class RunPainter {
   /// @param figure, world, fleet, run must outlive this
   RunPainter(Figure& figure, const World& world, const Fleet& fleet, const DrawnRun& run, const Style& style);
 
-  /// Floor, areas measured as free, paths with a ring at each start, echoes, maps and objects.
+  /// Floor, density map, areas measured as free, paths with a ring at each start, echoes, maps and objects.
   void paintGround();
-  /// Robots at their final poses.
+  /// Robots at their final poses, with small marks of events of many robots below them.
   void paintRobots();
   /// Marks of the events; of several of one robot and kind within a mark's size only the first. A mark on a robot is
   /// moved beside it, where there is least on the picture.
@@ -44,6 +44,7 @@ class RunPainter {
   void paintEnd(const mrpt::math::TPoint2D& at, const Color&);
   void paintEvent(RunEvent::Kind, const mrpt::math::TPoint2D& at, const Color&);
   void paintSensor(SensorKind, const mrpt::math::TPoint2D& at);
+  void paintDensityScale(const mrpt::math::TPoint2D& at);
   ///@}
 
  private:
@@ -58,6 +59,10 @@ class RunPainter {
   void paintEchoes();
   void paintSightLines();
   void paintPath(std::size_t robot, float paleness);
+  void paintTrails(float newest);
+  void paintSmallEvents();
+  template <typename Paint>
+  void forEachEvent(const Paint& paint) const;
   std::vector<mrpt::math::TPoint2D> toPixels(std::span<const mrpt::math::TPoint2D> places) const;
 
   Figure& figure_;

@@ -2,6 +2,7 @@
 
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "rendering/free_areas.h"
 
@@ -12,21 +13,31 @@ using mrpt::math::TPoint2D;
 
 constexpr double kArcPiece_m = 0.05;  ///< of a sonar sector's arc
 
-/// The drawn part of a robot's path, without its end at a present robot.
-std::vector<TPoint2D> pathOf(std::size_t robot, const RunPaths& paths, double from_s, double to_s, bool is_present) {
-  std::vector<TPoint2D> drawn;
+}  // namespace
+
+DrawnPath drawnPath(std::size_t robot, const RunPaths& paths, double from_s, double to_s, bool is_present) {
+  DrawnPath drawn;
+  const auto add = [&](const TPoint2D& at, double time_s) {
+    drawn.points.push_back(at);
+    drawn.times_s.push_back(time_s);
+  };
   const PathPart part = paths.between(robot, from_s, to_s);
-  if (part.begin) drawn.push_back(*part.begin);
+  if (part.begin) add(*part.begin, from_s);
   for (const auto& point : part.points) {
-    if (point.is_after_gap && !drawn.empty()) drawn.push_back(kPathGap);
-    drawn.push_back(point.at);
+    if (point.is_after_gap && !drawn.points.empty()) add(kPathGap, point.time_s);
+    add(point.at, point.time_s);
   }
   // The vertices end before the place where a robot was last seen.
-  if (const auto end = paths.positionAt(robot, to_s); end && !is_present && !drawn.empty()) drawn.push_back(*end);
+  if (const auto end = paths.positionAt(robot, to_s); end && !is_present && !drawn.points.empty()) add(*end, to_s);
   return drawn;
 }
 
-}  // namespace
+RunSnapshot onlyShown(RunSnapshot snapshot, const ViewLayers& layers) {
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    if (!layers.shows(i)) snapshot.robots[i].activity = Activity::absent;
+  }
+  return snapshot;
+}
 
 void addEvents(RunEvents& events, const Fleet& fleet, const RunSnapshot& snapshot) {
   const auto place_of = [&](std::size_t i) -> std::optional<TPoint2D> {
@@ -51,26 +62,35 @@ void addEvents(RunEvents& events, const Fleet& fleet, const RunSnapshot& snapsho
   }
 }
 
-DrawnRun drawnRun(const Fleet& fleet, const RunSnapshot& snapshot, const RunPaths& paths, const TopViewLayers& layers,
+DrawnRun drawnRun(const Fleet& fleet, const RunSnapshot& snapshot, const RunPaths& paths, const ViewLayers& layers,
                   const RunEvents* events) {
   DrawnRun run;
   run.has_names = layers.names;
+  run.has_starts = layers.starts;
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
     const RobotSnapshot& robot = snapshot.robots[i];
     if (layers.paths && paths.robots() > 0) {
-      run.paths.push_back(pathOf(i, paths, layers.paths_from_s, snapshot.time_s, robot.isPresent()));
+      DrawnPath path;
+      if (layers.shows(i)) path = drawnPath(i, paths, layers.paths_from_s, snapshot.time_s, robot.isPresent());
+      run.paths.push_back(std::move(path.points));
+      run.path_times_s.push_back(std::move(path.times_s));
     }
     auto& pose = run.world_from_robot.emplace_back();
-    if (!robot.isPresent()) continue;
+    if (!robot.isPresent() || !layers.shows(i)) continue;
     pose = robot.world_from_robot;
   }
   RunEvents of_snapshot;
   if (!events) addEvents(of_snapshot, fleet, snapshot);
   for (const auto& [time_s, event] : (events ? *events : of_snapshot).all()) {
-    if (layers.events && time_s >= layers.paths_from_s && time_s <= snapshot.time_s) run.events.push_back(event);
+    if (!layers.events || !layers.shows(event.robot)) continue;
+    if (time_s >= layers.paths_from_s && time_s <= snapshot.time_s) run.events.push_back(event);
   }
   if (!layers.sensors) return run;
+  const auto is_shown = [&](const RobotSnapshot& robot) {
+    return layers.shows(static_cast<std::size_t>(&robot - snapshot.robots.data()));
+  };
   forEachEchoes(fleet, snapshot, [&](const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) {
+    if (!is_shown(robot)) return;
     SensedArea& sensed = run.sensed.emplace_back(SensedArea{sensor.kind});
     sensed.free = freeAreas(robot, sensor, echoes, kArcPiece_m);
     for (const auto& echo : echoes) {
@@ -78,8 +98,8 @@ DrawnRun drawnRun(const Fleet& fleet, const RunSnapshot& snapshot, const RunPath
       sensed.echoes.push_back(robot.world_from_robot.composePoint(TPoint2D(echo.point_m.x, echo.point_m.y)));
     }
   });
-  forEachSightLines(fleet, snapshot, [&](const RobotSnapshot&, const SensorInfo& sensor, const auto& lines) {
-    run.sensed.push_back({.kind = sensor.kind, .lines = lines});
+  forEachSightLines(fleet, snapshot, [&](const RobotSnapshot& robot, const SensorInfo& sensor, const auto& lines) {
+    if (is_shown(robot)) run.sensed.push_back({.kind = sensor.kind, .lines = lines});
   });
   return run;
 }

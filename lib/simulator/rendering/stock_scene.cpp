@@ -6,6 +6,7 @@
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include "rendering/detail_level.h"
 #include "rendering/object_mesh.h"
 #include "rendering/robot_mesh.h"
 
@@ -20,7 +21,7 @@ using mrpt::opengl::TTriangle;
 
 constexpr int kSides = 48;
 /// Maximum number of robots drawn in full detail, which takes 0.25 MB each in the file.
-constexpr std::size_t kMaxDetailedRobots = 100;
+constexpr std::size_t kMaxDetailedRobots = 100, kMaxRoughRobots = 1000;
 /// Appearance of the grid and of the floor below it. The floor is lower, which avoids z-fighting.
 constexpr double kGrid_m = 1, kFloor_m = -0.005;
 const TColor kGridColor(170, 176, 184);
@@ -70,7 +71,7 @@ void addGround(mrpt::opengl::COpenGLScene& scene, const Bounds2D& bounds) {
 
 }  // namespace
 
-std::string toStockScene(const World& world, const Fleet& fleet) {
+std::string toStockScene(const World& world, const Fleet& fleet, const ViewLayers& layers) {
   mrpt::opengl::COpenGLScene scene;
   addGround(scene, world.bounds);
   for (const auto& object : world.objects) {
@@ -83,12 +84,18 @@ std::string toStockScene(const World& world, const Fleet& fleet) {
     for (const auto& body : bodiesOf(map)) addBody(mesh, body, kSides);
     scene.insert(thing(map.file, mesh));
   }
-  const Detail detail = fleet.robots.size() <= kMaxDetailedRobots ? Detail::full : Detail::rough;
-  for (const auto& robot : fleet.robots) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < fleet.robots.size(); ++i) count += layers.shows(i) ? 1 : 0;
+  const Detail detail = count <= kMaxDetailedRobots ? Detail::full
+                        : count <= kMaxRoughRobots  ? Detail::rough
+                                                    : Detail::tiny;
+  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
+    if (!layers.shows(i)) continue;
+    const FleetRobot& robot = fleet.robots[i];
     auto body = thing(robot.info.name, robotMesh(*robot.model, robot.body, detail), robot.body.color);
     const auto& start = robot.world_from_start;
     body->setPose(TPose3D(start.x, start.y, 0, start.phi, 0, 0));
-    body->enableShowName();
+    if (layers.names && count <= DetailLevel::kManyRobots) body->enableShowName();
     scene.insert(body);
   }
   mrpt::io::CMemoryStream stream;

@@ -6,6 +6,8 @@
 
 #include <mrpt/core/format.h>
 
+#include "hardware/led_color.h"
+#include "rendering/density_painter.h"
 #include "rendering/detail_level.h"
 #include "rendering/drawing_surface.h"
 #include "rendering/free_areas.h"
@@ -26,9 +28,10 @@ constexpr std::size_t kMaxNames = 60;
 
 constexpr double kArcPiece_px = 8;  ///< straight piece of a sonar sector's arc
 
-DrawingSurface emptyFloor(const World& world, const GroundView& view, double scale) {
+DrawingSurface emptyFloor(const World& world, const ChangedObjects& objects, const GroundView& view, double scale) {
   DrawingSurface surface(view, kPageColor, scale);
   drawFloor(surface, world.bounds);
+  drawFloorAreas(surface, world, objects.orThose(world.objects));
   return surface;
 }
 
@@ -41,9 +44,10 @@ void drawObjectsAndMaps(DrawingSurface& surface, const World& world, const Chang
 class Drawing {
  public:
   /// @param objects layer with the objects on the floor; null to draw them
-  /// @param followed robot that the view follows, whose readings are drawn also among many robots
+  /// @param followed robot that the view follows, which is drawn with its readings also among many robots
+  /// @param density drawn on the floor, in place of the robots and paths of a crowded picture; must outlive this
   Drawing(const World& world, const Fleet& fleet, const RunSnapshot& snapshot, DrawingSurface floor,
-          const DrawingSurface* objects, std::optional<std::size_t> followed)
+          const DrawingSurface* objects, std::optional<std::size_t> followed, const std::optional<DensityMap>& density)
       : world_(world),
         fleet_(fleet),
         snapshot_(snapshot),
@@ -51,17 +55,23 @@ class Drawing {
         surface_(std::move(floor)),
         objects_(objects),
         followed_(followed),
+        density_(density),
         level_(levelOf()) {}
 
-  cv::Mat draw(const RunPaths& paths, const TopViewLayers& layers) {
-    if (layers.paths && level_.has_paths) drawPaths(paths, layers.paths_from_s);
+  cv::Mat draw(const RunPaths& paths, const ViewLayers& layers) {
+    if (density_) drawDensity(surface_, *density_);
+    if (layers.paths && level_.is_crowded && level_.has_paths) drawTrails(paths, layers);
+    if (layers.paths && !level_.is_crowded) drawPaths(paths, layers);
     if (layers.sensors) drawRanges();
     if (objects_) {
       surface_.lay(*objects_);
     } else {
       drawObjectsAndMaps(surface_, world_, snapshot_.objects);
     }
-    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) drawRobot(i, layers.events);
+    for (std::size_t i = 0; i < snapshot_.robots.size() && level_.has_robots; ++i) {
+      if (i != followed_ || !level_.is_crowded) drawRobot(i, layers.events);
+    }
+    if (followed_ && level_.is_crowded) drawFollowed(*followed_);
     if (layers.sensors) drawTouch();
     if (layers.names) writeNames();
     writeLegend();
@@ -79,7 +89,7 @@ class Drawing {
                    high = view_.toPixel({bounds.x_max, bounds.y_min});
     const double width_px = std::min<double>(high.x, view_.width()) - std::max(low.x, 0.0);
     const double height_px = std::min<double>(high.y, view_.height()) - std::max(low.y, 0.0);
-    return DetailLevel::of(seen, std::max(0.0, width_px) * std::max(0.0, height_px));
+    return DetailLevel::of(seen, std::max(0.0, width_px) * std::max(0.0, height_px), density_.has_value());
   }
 
   /// Whether the readings of a robot are drawn.
@@ -102,11 +112,12 @@ class Drawing {
 
   /// Draws the paths. Where old ones would cover much of the picture (many robots, long runs), they fade towards the
   /// floor, and only the last seconds keep their full colour.
-  void drawPaths(const RunPaths& paths, double from_s) {
-    constexpr float kPaleness = 0.35f, kManyPaleness = 0.6f;
-    const double recent_from_s = std::max(from_s, snapshot_.time_s - kRecentPath_s);
+  void drawPaths(const RunPaths& paths, const ViewLayers& layers) {
+    constexpr float kPaleness = 0.35f;
+    const double from_s = layers.paths_from_s, recent_from_s = std::max(from_s, snapshot_.time_s - kRecentPath_s);
     std::vector<Stroke> old, recent;
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
+      if (!layers.shows(i)) continue;
       addStrokes(old, i, paths.between(i, from_s, recent_from_s), paths.positionAt(i, recent_from_s));
       if (!snapshot_.robots[i].isPresent()) continue;
       const auto& pose = snapshot_.robots[i].world_from_robot;
@@ -117,14 +128,44 @@ class Drawing {
       for (std::size_t k = 1; k < stroke.points.size(); ++k)
         length_px += (stroke.points[k] - stroke.points[k - 1]).norm();
     }
-    const double width_px = kPath_px * level_.path_share;
-    const double covered = length_px * width_px / (1.0 * view_.width() * view_.height());
-    const float paleness = std::max(level_.is_crowded ? kManyPaleness : kPaleness, pathFading(covered));
-    for (const auto& stroke : old)
+    const double covered = length_px * kPath_px / (1.0 * view_.width() * view_.height());
+    drawStrokes(old, kPath_px, std::max(kPaleness, pathFading(covered)));
+    drawStrokes(recent, kPath_px, kPaleness);
+  }
+
+  void drawStrokes(const std::vector<Stroke>& strokes, double width_px, float paleness) {
+    for (const auto& stroke : strokes)
       surface_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, paleness));
-    const float recent_paleness = level_.is_crowded ? kManyPaleness : kPaleness;
-    for (const auto& stroke : recent)
-      surface_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, recent_paleness));
+  }
+
+  /// Draws the last seconds of the paths of many robots, which fade with age.
+  void drawTrails(const RunPaths& paths, const ViewLayers& layers) {
+    constexpr float kNewest = 0.35f;
+    const double from_s = std::max(layers.paths_from_s, snapshot_.time_s - kRecentPath_s);
+    const auto parts = trailParts(from_s, snapshot_.time_s, kNewest);
+    for (const auto& part : parts) {
+      std::vector<Stroke> strokes;
+      for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
+        const RobotSnapshot& robot = snapshot_.robots[i];
+        if (!layers.shows(i) || !robot.isPresent() || !isOnPicture(pixelOf(robot.world_from_robot), 200)) continue;
+        const bool is_newest = &part == &parts.back();
+        const TPoint2D now(robot.world_from_robot.x, robot.world_from_robot.y);
+        addStrokes(strokes, i, paths.between(i, part.from_s, part.to_s),
+                   is_newest ? now : paths.positionAt(i, part.to_s));
+      }
+      drawStrokes(strokes, kPath_px * level_.path_share, part.paleness);
+    }
+  }
+
+  /// Draws a robot among many so that it is found.
+  void drawFollowed(std::size_t i) {
+    constexpr double kFollowed_px = 6;
+    const RobotSnapshot& robot = snapshot_.robots[i];
+    if (!robot.isPresent()) return;
+    const double radius = std::max(kFollowed_px, radiusPx(i)), heading = robot.world_from_robot.phi;
+    const TPoint2D center = pixelOf(robot.world_from_robot);
+    surface_.disc(center, radius + 2, kWhite);
+    robosim::drawRobot(surface_, center, radius, {std::cos(heading), -std::sin(heading)}, colors_[i]);
   }
 
   /// Adds the visible pieces of a part of a path, which ends at `end` if that is known.
@@ -201,6 +242,10 @@ class Drawing {
     const double heading = robot.world_from_robot.phi;
     const auto draw = level_.is_crowded ? drawRobotOfMany : robosim::drawRobot;
     draw(surface_, center, radius, {std::cos(heading), -std::sin(heading)}, color);
+    if (robot.led_color == 0) return;
+    const auto lit = radius < 6 ? &DrawingSurface::dot : &DrawingSurface::disc;
+    if (radius >= 6) (surface_.*lit)(center, radius * 0.6, kWhite);
+    (surface_.*lit)(center, radius >= 6 ? radius * 0.6 - 1 : radius, rgbOf(robot.led_color));
   }
 
   /// Draws bumper contacts as arcs on the rim, and heat as a number with a bar.
@@ -264,6 +309,7 @@ class Drawing {
                                static_cast<unsigned long long>(snapshot_.step)),
                   11, kInkColor);
     drawScale(surface_, {14, view_.height() - 18.0});
+    if (density_) drawDensityLegend(surface_, *density_);
   }
 
   const World& world_;
@@ -274,6 +320,7 @@ class Drawing {
   DrawingSurface surface_;
   const DrawingSurface* objects_;
   std::optional<std::size_t> followed_;
+  const std::optional<DensityMap>& density_;
   DetailLevel level_;
 };
 
@@ -318,23 +365,25 @@ GroundView TopView::groundView(const RunSnapshot& snapshot, const TopViewCamera&
 }
 
 cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
-                      const TopViewLayers& layers) {
+                      const ViewLayers& layers) {
   const GroundView view = groundView(snapshot, camera);
+  const std::optional<DensityMap> density = densityOf(layers, world_, fleet_, snapshot, paths);
   const bool has_same_objects = snapshot.objects.isSameList(last_objects_);
   last_objects_ = snapshot.objects;
   if (std::exchange(last_view_, view) != view || std::exchange(last_scale_, camera.scale) != camera.scale ||
       !has_same_objects) {
     static_layers_.reset();
-    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view, camera.scale), nullptr, camera.follow)
+    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, snapshot.objects, view, camera.scale), nullptr,
+                   camera.follow, density)
         .draw(paths, layers);
   }
   if (!static_layers_) {
     DrawingSurface objects(view, std::nullopt, camera.scale);
     drawObjectsAndMaps(objects, world_, snapshot.objects);
-    static_layers_ =
-        std::make_unique<StaticLayers>(StaticLayers{emptyFloor(world_, view, camera.scale), std::move(objects)});
+    static_layers_ = std::make_unique<StaticLayers>(
+        StaticLayers{emptyFloor(world_, snapshot.objects, view, camera.scale), std::move(objects)});
   }
-  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects, camera.follow)
+  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects, camera.follow, density)
       .draw(paths, layers);
 }
 

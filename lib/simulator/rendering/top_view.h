@@ -7,6 +7,7 @@
 #include "rendering/ground_view.h"
 #include "rendering/run_paths.h"
 #include "robots/fleet.h"
+#include "robots/view_layers.h"
 #include "world/world.h"
 
 namespace robosim {
@@ -25,17 +26,8 @@ struct TopViewCamera {
   void zoom(double factor, const mrpt::math::TPoint2D& pixel);
 };
 
-/// Layers of a view. With many robots in the picture, some are omitted (DetailLevel): sensors except those of the robot
-/// that the view follows, names, and of the densest pictures the paths.
-struct TopViewLayers {
-  bool paths = true;
-  bool sensors = true;  ///< of robots that have readings: sonar fans, laser scans, infrared, heat, bumper
-  bool names = true;
-  bool events = true;       ///< stalls and found gold; in figures also messages
-  double paths_from_s = 0;  ///< earlier parts of the paths are not drawn, nor are earlier events
-};
-
-/// Renders a run from straight above, to scale.
+/// Renders a run from straight above, to scale. With many robots in the picture, DetailLevel omits some layers: sensors
+/// except those of the robot that the view follows, names, and of the densest pictures the paths.
 class TopView {
  public:
   /// @param world, fleet must outlive this
@@ -43,8 +35,9 @@ class TopView {
   ~TopView();
 
   /// BGR, 8 bits.
+  /// @param snapshot absent robots are not drawn
   cv::Mat draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
-               const TopViewLayers& layers);
+               const ViewLayers& layers);
   /// The robot at a pixel, if there is one.
   static std::optional<std::size_t> robotAt(const mrpt::math::TPoint2D& pixel, const RunSnapshot& snapshot,
                                             const Fleet& fleet, const TopViewCamera& camera);

@@ -47,6 +47,13 @@ TEST_F(TopViewTest, DrawsRobotsWithAHeadingMark) {
   EXPECT_NE(at(picture, {8 + 0.3, 4}), cv::Vec3b(255, 255, 255));
 }
 
+TEST_F(TopViewTest, DrawsTheLedsOfARobotAsADiscOfTheirColour) {
+  snapshot.robots[0].led_color = 0x00ff00;
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
+  EXPECT_EQ(at(picture, {5, 2.5 + 0.1}), cv::Vec3b(0, 255, 0));
+  EXPECT_GT(at(picture, {5 - 0.3, 2.5})[2], 100) << "around it, the robot is red";
+}
+
 TEST_F(TopViewTest, DrawsNoAbsentRobot) {
   snapshot.robots[0].activity = Activity::absent;
   Readings readings;

@@ -40,10 +40,19 @@ struct Tile {
   Mesh bodies, shadows;
 };
 
+/// Between areas of the floor that overlap, of which the last one is on top.
+constexpr double kLayer_m = 0.001;
+constexpr int kLayersMax = 10;
+
 std::vector<Body> bodiesOf(const std::vector<WorldObject>& objects, bool are_stationary) {
   std::vector<Body> bodies;
+  int layers = 0;
   for (const auto& object : objects) {
-    if (object.isStationary() == are_stationary) bodies.push_back(object.body);
+    if (object.isStationary() != are_stationary) continue;
+    Body& body = bodies.emplace_back(object.body);
+    if (!body.isFloor()) continue;
+    layers = std::min(layers + 1, kLayersMax);
+    body.center_z_m = kPaint_m + layers * kLayer_m - body.height_m / 2;
   }
   return bodies;
 }
@@ -69,7 +78,7 @@ std::vector<Tile> makeTiles(std::vector<Body> bodies, const Bounds2D& bounds) {
     body.world_from_body.x -= center.x;
     body.world_from_body.y -= center.y;
     addBody(tile.bodies, body, sides);
-    if (body.heights().z_max_m <= 0) continue;
+    if (body.heights().z_max_m <= kPaint_m + kLayersMax * kLayer_m) continue;
     auto outline = outlineOf(body, sides);
     for (auto& point : outline) point += TPoint2D(body.world_from_body.x, body.world_from_body.y);
     addShadow(tile.shadows, outline, body.heights().z_max_m);
@@ -146,9 +155,9 @@ void WorldScene::Impl::addRobots(const World& world, const Fleet& fleet) {
     if (is_new) {
       Mesh shadow;
       addShadow(shadow, circlePoints({}, 0.9 * body.coveringRadius(), 24), body.heights().z_max_m);
-      groups.push_back({std::make_shared<InstancedMesh>(robotMesh(*robot.model, body, Detail::full),
-                                                        robotMesh(*robot.model, body, Detail::rough),
-                                                        robotMesh(*robot.model, body, Detail::tiny)),
+      groups.push_back({std::make_shared<InstancedMesh>(
+                            robotMesh(*robot.model, body, Detail::full), robotMesh(*robot.model, body, Detail::rough),
+                            robotMesh(*robot.model, body, Detail::tiny), robotMesh(*robot.model, body, Detail::speck)),
                         std::make_shared<Shadows>(std::move(shadow), world.bounds)});
       all.push_back(groups.back().robots);
       all.push_back(groups.back().shadows);

@@ -53,7 +53,7 @@ Fleet withRobot(Fleet fleet, const AddRobot& added) {
   RayBudget budget;
   for (const FleetRobot& one : fleet.robots) {
     if (const std::string excess = budget.add(one.model); !excess.empty()) {
-      throw ConfigError("with it " + excess + "; use fewer robots, or sensors of fewer beams");
+      throw ConfigError("with it " + excess);
     }
   }
   return fleet;

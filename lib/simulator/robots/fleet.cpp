@@ -58,7 +58,8 @@ FleetRobot placedRobot(const RobotPlacement& placement, std::shared_ptr<const Ro
                 .radius_m = model->radius_m,
                 .height_m = model->body.height_m,
                 .limits = model->limits,
-                .sensors = model->sensor_infos};
+                .sensors = model->sensor_infos,
+                .drive = model->drive};
   robot.world_from_start = placement.world_from_robot;
   robot.world_from_start.phi = mrpt::math::wrapToPi(robot.world_from_start.phi);
   robot.body = placement.body.value_or(model->body);
@@ -89,7 +90,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
     if (!model) continue;
     if (const std::string excess = budget.add(model); !excess.empty()) {
       errors.add(world.fileOf(placement.line, world_file), placement.line.number,
-                 "robot '" + placement.name + "': with it " + excess + "; use fewer robots, or sensors of fewer beams");
+                 "robot '" + placement.name + "': with it " + excess);
       break;
     }
     fleet.robots.push_back(placedRobot(placement, std::move(model)));
@@ -149,12 +150,28 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
   return fleet;
 }
 
+bool hasOtherDrives(const Fleet& fleet) {
+  return std::any_of(fleet.robots.begin(), fleet.robots.end(),
+                     [](const FleetRobot& robot) { return robot.info.drive.kind != DriveKind::differential; });
+}
+
 bool hasCamera(const Fleet& fleet) {
   return std::any_of(fleet.robots.begin(), fleet.robots.end(), [](const FleetRobot& robot) {
     const auto& sensors = *robot.info.sensors;
     return std::any_of(sensors.begin(), sensors.end(),
                        [](const SensorInfo& s) { return s.kind == SensorKind::camera; });
   });
+}
+
+bool needsImageSource(const RobotInfo& robot) {
+  return std::any_of(robot.sensors->begin(), robot.sensors->end(), [](const SensorInfo& sensor) {
+    return sensor.kind == SensorKind::camera && !sensor.camera.isRaycast();
+  });
+}
+
+bool needsImageSource(const Fleet& fleet) {
+  return std::any_of(fleet.robots.begin(), fleet.robots.end(),
+                     [](const FleetRobot& robot) { return needsImageSource(robot.info); });
 }
 
 LoadedWorld placedWorld(World world, const std::string& world_file, const RobotTypes& types,

@@ -41,6 +41,8 @@ struct Fleet {
 ///@{
 constexpr std::size_t kWorldBeamsMax = 50'000'000;     ///< beams of all robots' sensors; 16 bytes per reading
 constexpr std::size_t kWorldModelRaysMax = 2'000'000;  ///< Sensor::rayCount() of all robot models, each counted once
+/// Bytes of the ray-cast pictures of all robots, and of what is computed once for each pixel of a robot model.
+constexpr std::size_t kWorldPictureBytesMax = 2'000'000'000;
 ///@}
 
 /// A placed robot with its model, in the colour of its placement or body.
@@ -65,8 +67,14 @@ FleetRobot robotOfType(const RobotTypes& types, const std::string& model);
 /// @throws std::invalid_argument for another number of robots
 Fleet buildFleet(const World&, const std::string& world_file, const Fleet& alike, ErrorList& errors);
 
-/// Whether any robot has a camera, which makes an ImageSource necessary.
+/// Whether any robot has another drive than a differential one.
+bool hasOtherDrives(const Fleet& fleet);
+
+/// Whether any robot has a camera, of whatever model.
 bool hasCamera(const Fleet& fleet);
+/// Whether a robot has a camera whose pictures an ImageSource renders: one that is not ray-cast.
+bool needsImageSource(const RobotInfo& robot);
+bool needsImageSource(const Fleet& fleet);
 
 /// A world and its robots.
 struct LoadedWorld {

@@ -130,8 +130,12 @@ TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
 
 TEST(Fleet, RejectsUnknownModelsAndControllersThatTheCheckRejects) {
   const std::string known =
-      "known are: amigo-sh, carrier, p3at, p3at-sh, p3dx, p3dx-sh, p3dx_gripper, pioneer3dx, pioneer3dx_camera, "
-      "pioneer3dx_driven, pioneer3dx_polaroid, pusher, scout, scout_driven, sena_wheelchair, soccer_robot; " +
+      "known are: amigo-sh, carrier, epuck, f1tenth, footbot, husky_a200, khepera, mpo500, p3at, p3at-sh, p3dx, "
+      "p3dx-sh, "
+      "p3dx_gripper, p3dx_gyro, p3dx_ptz, pioneer3dx, pioneer3dx_camera, pioneer3dx_driven, pioneer3dx_polaroid, "
+      "pusher "
+      "and "
+      "6 more; " +
       robotTypeFoldersText();
   EXPECT_EQ(faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
                             placed("../robots/scout", "C", 4)})),
@@ -229,6 +233,19 @@ TEST(Fleet, RejectsTheRobotThatExceedsTheBeamLimit) {
   EXPECT_EQ(faults(worldOf(robots)),
             (Lines{"w.xml:502: robot 'r500': with it the robots have more than 50000000 beams; use fewer robots, or "
                    "sensors of fewer beams"}));
+  robots.pop_back();
+  EXPECT_EQ(faults(worldOf(robots)), Lines{});
+}
+
+TEST(Fleet, RejectsTheRobotThatExceedsTheLimitOfPictures) {
+  // 2^20 pixels: 20 MiB once, and 11 MiB for each robot, of which 171 are less than 2 GB.
+  const std::string camera =
+      "<sensors><camera model='raycast' layers='rgb depth identity' width_px='1024' height_px='1024'/></sensors>";
+  Lines robots;
+  for (int i = 0; i < 172; ++i) robots.push_back(placed("scout", "r" + std::to_string(i), -45 + 0.4 * i, camera));
+  EXPECT_EQ(faults(worldOf(robots)),
+            (Lines{"w.xml:173: robot 'r171': with it the ray-cast pictures of the robots take more than 2000000000 "
+                   "bytes; use fewer robots, or cameras of fewer pixels or layers"}));
   robots.pop_back();
   EXPECT_EQ(faults(worldOf(robots)), Lines{});
 }

@@ -13,9 +13,12 @@
 #include "base/digest.h"
 #include "base/label.h"
 #include "base/xml_reader.h"
+#include "robots/drive_reader.h"
 #include "robots/robot_type_includes.h"
+#include "sensors/camera.h"
 #include "sensors/odometry.h"
 #include "sensors/registry.h"
+#include "world/body_xml.h"
 
 namespace robosim {
 namespace {
@@ -110,6 +113,7 @@ Body readBody(XmlReader& reader, BodyLook& look) {
   body.center_z_m = reader.number("clearance_m", Bounds::notNegative(100), 0) + body.height_m / 2;
   const auto rgb = reader.numbers("color", 3, {0, 1}, {0.5, 0.5, 0.5});
   for (std::size_t i = 0; i < 3; ++i) body.color[i] = static_cast<float>(rgb[i]);
+  for (const BodyProperty& property : kBodyProperties) body.*property.value = readProperty(reader, property, 0);
   look = reader.choice("look", {{"drum", BodyLook::drum}, {"deck", BodyLook::deck}}, BodyLook::drum);
   reader.finish();
   return body;
@@ -125,6 +129,13 @@ void readLimits(XmlReader& reader, RobotModel& model) {
   limits.emergency_decel_mps2 = reader.number("emergency_decel_mps2", {limits.decel_mps2, 1000}, limits.decel_mps2);
   model.push_max_n = reader.number("push_max_n", {0, 100000}, model.push_max_n);
   reader.finish();
+}
+
+/// Reads the drive that a world file gives a robot.
+void readDescribedDrive(const RobotDescription& description, RobotModel& model, ErrorList& errors) {
+  if (!description.drive) return;
+  XmlReader reader(*description.drive, description.file, errors);
+  model.drive = readDrive(reader, model.limits);
 }
 
 /// Sensors of a model, with whether the file gives each a label.
@@ -145,8 +156,10 @@ void mount(std::vector<XmlReader> readers, double unit_m, Mounted& mounted) {
   const RobotModel& model = mounted.model;
   std::size_t rays = 0;
   for (auto& reader : readers) {
-    if (auto sensor = readSensor(reader, {unit_m, model.radius_m, model.body.height_m, model.sensors, rays})) {
+    if (auto sensor =
+            readSensor(reader, {unit_m, model.radius_m, model.body.height_m, model.sensors, rays, model.drive})) {
       rays += sensor->rayCount();
+      if (auto head = makeHeadOf(*sensor)) mounted.add(std::move(head), false);
       mounted.add(std::move(sensor), reader.has("label"));
     }
   }
@@ -233,6 +246,8 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
   setBody(readBody(body, model.look), model);
   XmlReader limits = root.requiredChild("limits");
   readLimits(limits, model);
+  if (auto element = root.child("drive")) model.drive = readDrive(*element, model.limits);
+  readDescribedDrive(description, model, errors);
   if (auto element = root.child("arcos")) model.arcos = readArcosParameters(*element);
   if (description.body) setBody(*description.body, model);
   auto sensors = root.child("sensors");
@@ -258,6 +273,7 @@ RobotModel modelOf2005(const RobotDescription& description, ErrorList& errors) {
                   .accel_mps2 = 2.5 * model.radius_m,
                   .decel_mps2 = 2.5 * model.radius_m,
                   .turn_accel_radps2 = 3.5};
+  readDescribedDrive(description, model, errors);
   Mounted mounted(model);
   mountDescribed(description, mounted, errors);
   describeSensors(mounted);

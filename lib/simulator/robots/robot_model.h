@@ -34,6 +34,7 @@ struct RobotModel {
   BodyLook look = BodyLook::drum;
   double radius_m = 0;  ///< of the disc used for move authorisation: Body::coveringRadius()
   MotionLimits limits;
+  Drive drive;
   double push_max_n = kPushMax_n;  ///< force with which it pushes objects; >= 0, 0: none moves
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::shared_ptr<const std::vector<SensorInfo>> sensor_infos;  ///< of `sensors`, with unique labels
@@ -50,6 +51,7 @@ RobotModel readRobotModel(const std::filesystem::path& file, ErrorList& errors);
 struct RobotDescription {
   const Body* body = nullptr;                        ///< null: the type's
   const std::vector<XmlElement>* sensors = nullptr;  ///< null: the type's
+  const XmlElement* drive = nullptr;                 ///< null: the type's
   std::string file;                                  ///< the world file, for error messages
   double unit_m = 1;                                 ///< of the world file
 };

@@ -30,6 +30,7 @@ std::size_t computeHash(const RobotPlacement& robot) {
   mix(hash, robot.model);
   if (robot.body) mix(hash, robot.body->coveringRadius());
   for (const auto& sensor : robot.sensors) mix(hash, sensor);
+  if (robot.drive) mix(hash, *robot.drive);
   return hash;
 }
 
@@ -39,7 +40,7 @@ bool sameForm(const std::optional<Body>& a, const std::optional<Body>& b) {
 }
 
 bool shareModel(const RobotPlacement& a, const RobotPlacement& b) {
-  return a.model == b.model && sameForm(a.body, b.body) && a.sensors == b.sensors;
+  return a.model == b.model && sameForm(a.body, b.body) && a.sensors == b.sensors && a.drive == b.drive;
 }
 
 }  // namespace
@@ -101,6 +102,7 @@ const RobotModelCache::Type* RobotModelCache::typeOf(const RobotPlacement& robot
 std::shared_ptr<const RobotModel> RobotModelCache::make(const RobotPlacement& robot) {
   RobotDescription description{.file = world_.fileOf(robot.line, world_file_), .unit_m = world_.unit_m};
   if (robot.body) description.body = &*robot.body;
+  if (robot.drive) description.drive = &*robot.drive;
   if (robot.model.empty()) {
     if (!robot.body) return nullptr;  // already reported by the world's reader
     description.sensors = &robot.sensors;
@@ -109,7 +111,7 @@ std::shared_ptr<const RobotModel> RobotModelCache::make(const RobotPlacement& ro
   const Type* type = typeOf(robot);
   if (!type) return nullptr;
   if (!robot.sensors.empty()) description.sensors = &robot.sensors;
-  if (!description.body && !description.sensors) return type->model;
+  if (!description.body && !description.sensors && !description.drive) return type->model;
   return std::make_shared<const RobotModel>(modelOf(type->root, type->file->file.string(), description, errors_));
 }
 

@@ -13,7 +13,7 @@
 namespace robosim {
 
 /// Makes the models of one world's robots. Reads each robot type once, and shares one model among robots with equal
-/// type, body and sensors.
+/// type, body, drive and sensors.
 class RobotModelCache {
  public:
   /// @param world_file names the world's file in errors. World, types and errors must outlive this object.
@@ -43,7 +43,7 @@ class RobotModelCache {
     const RobotPlacement* first;  ///< the first robot that uses the model
     std::shared_ptr<const RobotModel> model;
   };
-  std::unordered_map<std::size_t, std::vector<Made>> made_;  ///< by hash of type, body and sensors
+  std::unordered_map<std::size_t, std::vector<Made>> made_;  ///< by hash of type, body, drive and sensors
 };
 
 }  // namespace robosim

@@ -269,15 +269,15 @@ TEST(RobotModel, ReportsAllFaultsAtOnce) {
              "r.xml:3: <limits>: <turn_accel_degps2> is missing; add it",
              "r.xml:5: <sonar>: has no mounting pose; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>"}));
   EXPECT_EQ(faultsOf("<robot name='r' hue='1'>" + kBody + kLimits + "</robot>"),
-            Lines{"r.xml:1: <robot>: unknown attribute hue=\"1\"; accepted here are: arcos, body, help, limits, name, "
-                  "sensors"});
+            Lines{"r.xml:1: <robot>: unknown attribute hue=\"1\"; accepted here are: arcos, body, drive, help, limits, "
+                  "name, sensors"});
 }
 
 TEST(RobotModel, RejectsABodyThatIsBothRoundAndRectangular) {
-  EXPECT_EQ(
-      faultsOf("<robot name='r'><body radius_m='1' length_m='1' height_m='1'/>" + kLimits + "</robot>"),
-      Lines{"r.xml:1: <body>: unknown attribute length_m=\"1\"; accepted here are: clearance_m, color, height_m, look, "
-            "radius_m"});
+  EXPECT_EQ(faultsOf("<robot name='r'><body radius_m='1' length_m='1' height_m='1'/>" + kLimits + "</robot>"),
+            Lines{"r.xml:1: <body>: unknown attribute length_m=\"1\"; accepted here are: clearance_m, color, fiducial, "
+                  "height_m, light, look, "
+                  "radius_m"});
 }
 
 TEST(RobotModel, RejectsTheSensorThatExceedsTheRayLimit) {

@@ -19,6 +19,7 @@ struct RobotSnapshot {
   bool stalled = false;
   Activity activity = Activity::active;
   std::optional<Readings> readings;  ///< nullopt if not requested
+  std::uint32_t led_color = 0;       ///< 0xRRGGBB; 0: off
   bool operator==(const RobotSnapshot&) const = default;
   /// Whether the robot is in the world, and therefore shown.
   bool isPresent() const { return activity != Activity::absent; }

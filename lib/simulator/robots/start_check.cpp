@@ -75,6 +75,7 @@ const WorldMap* mapWith(const World& world, std::size_t solid) {
   if (solid < world.objects.size()) return nullptr;
   solid -= world.objects.size();
   for (const auto& map : world.maps) {
+    if (map.isFloor()) continue;
     const std::size_t solids = map.plan.occupied.size() + map.plan.boxes.size();
     if (solid < solids) return &map;
     solid -= solids;

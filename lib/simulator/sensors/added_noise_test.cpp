@@ -18,7 +18,7 @@ std::vector<XmlElement> with(AddedNoise noise, const std::string& sensors) {
 TEST(AddedNoise, IsValidForAllKindsOfSensors) {
   const std::string all =
       "<sonar><ring count='8' radius_m='0.2'/></sonar><laser/><infrared><ring count='8' radius_m='0.2'/></infrared>"
-      "<heat/><bumper/><odometry/><compass/><battery/><camera/><range_and_bearing/>"
+      "<heat/><bumper/><odometry/><compass/><battery/><camera/><range_and_bearing/><gnss/><imu/><encoders/>"
       "<beacons><beacon x_m='1'/></beacons>";
   for (const AddedNoise noise : {AddedNoise::typical, AddedNoise::all}) {
     for (const auto& element : with(noise, all)) {
@@ -27,7 +27,7 @@ TEST(AddedNoise, IsValidForAllKindsOfSensors) {
       const auto sensor = readSensor(reader, {.robot_radius_m = 0.2, .robot_height_m = 0.3});
       ASSERT_TRUE(sensor && errors.empty()) << element.name;
       EXPECT_TRUE(sensor->isNoisy() || element.name == "bumper" || element.name == "camera" ||
-                  element.name == "battery")
+                  element.name == "battery" || element.name == "encoders")
           << element.name;
     }
   }
@@ -40,6 +40,17 @@ TEST(AddedNoise, OfAllErrorsNamesTheSetAndWidensTheBeamOfASonar) {
     return std::find(attributes.begin(), attributes.end(), std::pair(name, value)) != attributes.end();
   };
   EXPECT_TRUE(has("noise", "polaroid") && has("beam_width_deg", "84") && !has("beam_width_deg", "20"));
+}
+
+TEST(AddedNoise, IsValidForTheOdometryOfEveryDrive) {
+  for (const DriveKind kind : {DriveKind::omni, DriveKind::car, DriveKind::tracked}) {
+    for (const auto& element : with(AddedNoise::all, "<odometry/>")) {
+      ErrorList errors;
+      XmlReader reader(element, "sensors.xml", errors);
+      readSensor(reader, {.robot_radius_m = 0.2, .drive = {.kind = kind, .wheelbase_m = 0.5}});
+      EXPECT_TRUE(errors.empty()) << static_cast<int>(kind);
+    }
+  }
 }
 
 TEST(AddedNoise, LeavesSensorsWithNoiseUnchanged) {

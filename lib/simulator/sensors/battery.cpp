@@ -24,7 +24,7 @@ class Battery : public Sensor {
     if (options_.load.on) return senseLoaded(now, robots, slot, readings);
     for (const auto robot : robots) {
       const Motion& motion = now.last_motion[robot];
-      const bool drives = motion.length_m != 0 || motion.turn_rad != 0;
+      const bool drives = motion.length_m != 0 || motion.turn_rad != 0 || motion.lateral_m != 0;
       const double lasts_s = drives ? options_.driving_s : options_.standing_s;
       double& voltage_v = std::get<Scalar>(readings[robot].measurements[slot]).value;
       voltage_v -= (options_.full_v - options_.empty_v) * now.time.period_s / lasts_s;
@@ -43,9 +43,8 @@ class Battery : public Sensor {
       const double driven_m = now.driven_m.empty() ? 0 : now.driven_m[robot];
       double voltage_v =
           options_.full_v - range_v * (now.time.seconds() / options_.standing_s + driven_m * by_distance);
-      voltage_v -=
-          (load.drop_v_per_mps * std::abs(motion.length_m) + load.drop_v_per_radps * std::abs(motion.turn_rad)) /
-          now.time.period_s;
+      voltage_v -= (load.drop_v_per_mps * groundLength(motion) + load.drop_v_per_radps * std::abs(motion.turn_rad)) /
+                   now.time.period_s;
       if (load.noise_std_v > 0) voltage_v += load.noise_std_v * now.noise(robot, slot).gaussian();
       std::get<Scalar>(readings[robot].measurements[slot]).value = std::max(voltage_v, options_.empty_v);
     }

@@ -21,38 +21,42 @@ Ray turned(const Ray& ray, double tangent) {
 
 }  // namespace
 
-double BeamFootprint::power(const Ray& ray, double distance_m, BodyId body) const {
+double BeamFootprint::power(const Ray& ray, double distance_m, BodyId body) {
   if (distance_m <= 0) return std::numeric_limits<double>::max();
   const mrpt::math::TPoint2D at(ray.origin.x + ray.direction.x * distance_m,
                                 ray.origin.y + ray.direction.y * distance_m);
-  const auto normal = normalAt(now_.scene.solid(body).outline, at);
+  if (body != lit_body_) {
+    lit_body_ = body;
+    lit_outline_ = now_.scene.solid(body).outline;
+  }
+  const auto normal = normalAt(lit_outline_, at);
   const double cosine = std::abs(ray.direction.x * normal.x + ray.direction.y * normal.y);
   const double reach = (errors_.reach_m > 0 ? errors_.reach_m : 1) / distance_m;
   return now_.reflectivityOf(body) * cosine * reach * reach;
 }
 
-Return BeamFootprint::computeReturn(const BeamHits& hits, std::size_t i, double distortion) const {
-  const double own_m = hits.distance_m[i];
-  if (errors_.divergence_rad > 0) {
-    // The side on which the adjacent beam hits the more distant surface from this one.
-    int side = 0;
-    double largest_m = kSameSurface_m;
-    for (const int to : {-1, 1}) {
-      const std::size_t other = i + static_cast<std::size_t>(to);  // wraps to a large number before the first beam
-      if (other >= hits.body.size() || hits.body[other] == hits.body[i]) continue;
-      const double apart_m = std::abs(hits.distance_m[other] - own_m);
-      if (apart_m > largest_m) {
-        largest_m = apart_m;
-        side = to;
-      }
+int BeamFootprint::sideOfOther(const BeamHits& hits, std::size_t i) const {
+  int side = 0;
+  double largest_m = kSameSurface_m;
+  for (const int to : {-1, 1}) {
+    const std::size_t other = i + static_cast<std::size_t>(to);  // wraps to a large number before the first beam
+    if (other >= hits.body.size() || hits.body[other] == hits.body[i]) continue;
+    const double apart_m = std::abs(hits.distance_m[other] - hits.distance_m[i]);
+    if (apart_m > largest_m) {
+      largest_m = apart_m;
+      side = to;
     }
-    if (side != 0) return mixed(hits, i, side, distortion);
   }
+  return side;
+}
+
+Return BeamFootprint::computeReturn(const BeamHits& hits, std::size_t i) {
   if (hits.body[i] == kNoBody) return {};
+  const double own_m = hits.distance_m[i];
   return {own_m, errors_.reach_m > 0 ? power(hits.ray(i), own_m, hits.body[i]) : 1};
 }
 
-Return BeamFootprint::mixed(const BeamHits& hits, std::size_t i, int side, double distortion) const {
+Return BeamFootprint::mixed(const BeamHits& hits, std::size_t i, int side, double distortion) {
   const Ray middle = hits.ray(i);
   const double own_m = hits.distance_m[i];
   const BodyId own = hits.body[i];

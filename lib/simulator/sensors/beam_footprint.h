@@ -2,6 +2,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/shapes/solid.h"
 #include "sensors/laser_errors.h"
 #include "sensors/planar_beams.h"
 #include "sensors/sensor.h"
@@ -53,15 +54,31 @@ class BeamFootprint {
  public:
   BeamFootprint(const Snapshot& now, const LaserErrors& errors) : now_(now), errors_(errors) {}
 
+  /// The side on which the adjacent beam hits the more distant surface from that of beam i: 1 for the next beam, -1 for
+  /// the one before. 0 if both hit the same body, or one as near, or if the beams do not diverge: then the footprint
+  /// has one surface.
+  int mixingSide(const BeamHits& hits, std::size_t i) const {
+    if (!(errors_.divergence_rad > 0)) return 0;
+    const BodyId own = hits.body[i];
+    const bool is_alone = (i == 0 || hits.body[i - 1] == own) && (i + 1 == hits.body.size() || hits.body[i + 1] == own);
+    return is_alone ? 0 : sideOfOther(hits, i);
+  }
+  /// Light from one surface.
+  Return computeReturn(const BeamHits& hits, std::size_t i);
+  /// Light from two surfaces.
+  /// @param side mixingSide(), not 0
   /// @param distortion random error of a mixed pixel's shares, in standard deviations
-  Return computeReturn(const BeamHits& hits, std::size_t i, double distortion) const;
+  Return mixed(const BeamHits& hits, std::size_t i, int side, double distortion);
 
  private:
-  double power(const Ray& ray, double distance_m, BodyId body) const;
-  Return mixed(const BeamHits& hits, std::size_t i, int side, double distortion) const;
+  int sideOfOther(const BeamHits& hits, std::size_t i) const;
+  double power(const Ray& ray, double distance_m, BodyId body);
 
   const Snapshot& now_;
   const LaserErrors& errors_;
+  // The body that power() was computed of last: adjacent beams often hit the same.
+  BodyId lit_body_ = kNoBody;
+  Outline lit_outline_;
 };
 
 }  // namespace robosim

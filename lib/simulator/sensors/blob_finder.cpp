@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "sensors/blob_regions.h"
 #include "sensors/image_source.h"
 
 namespace robosim {
@@ -17,21 +18,25 @@ class BlobFinder : public Sensor {
     info_.label = options_.label;
     info_.beams = camera.beams;
     info_.camera = camera.camera;
+    info_.pans = camera.pans;
     for (const auto& color : options_.colors) info_.colors.push_back(color.name);
   }
 
   const SensorInfo& info() const override { return info_; }
+  std::optional<std::size_t> slotRead() const override { return camera_slot_; }
+  double robotReach(double) const override { return 0; }  // its camera has its own
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {
       auto& measurements = readings[robot].measurements;
-      const auto& jpeg = std::get<Image>(measurements[camera_slot_]).jpeg;
+      const auto& image = std::get<Image>(measurements[camera_slot_]);
       auto& blobs = std::get<Blobs>(measurements[slot]);
       blobs = blankBlobs(info_);
-      if (jpeg.empty() || !now.images) continue;
+      if (image.isEmpty() || (!image.raw && !now.images)) continue;
       blobs.taken = true;
-      blobs.of_color = now.images->findBlobs(jpeg, options_.colors, options_.pixels_min);
+      blobs.of_color = image.raw ? findBlobs(*image.raw, options_.colors, options_.pixels_min)
+                                 : now.images->findBlobs(image.jpeg, options_.colors, options_.pixels_min);
     }
   }
 
@@ -97,6 +102,7 @@ std::unique_ptr<Sensor> makeBlobFinder(const BlobFinderOptions& options,
   for (std::size_t slot = mounted.size(); slot-- > 0;) {
     const SensorInfo& info = mounted[slot]->info();
     if (info.kind != SensorKind::camera || (!options.camera.empty() && info.label != options.camera)) continue;
+    if (info.camera.isRaycast() && !info.camera.layers.rgb) continue;
     return std::make_unique<BlobFinder>(options, info, slot);
   }
   return nullptr;

@@ -32,7 +32,7 @@ struct BlobFinderOptions {
 };
 
 /// @param mounted the sensors mounted before it, which must include its camera
-/// @return null when the camera is missing; reports no error
+/// @return null when the camera is missing, or has no colours; reports no error
 std::unique_ptr<Sensor> makeBlobFinder(const BlobFinderOptions&,
                                        std::span<const std::shared_ptr<const Sensor>> mounted);
 

@@ -91,10 +91,9 @@ std::string errorOf(const std::string& xml) {
 
 TEST(BlobFinder, RejectsInvalidColoursAndCameras) {
   EXPECT_EQ(errorOf("<blob_finder><color name='gold' rgb='1 0.8 0.1'/></blob_finder>"), "none");
-  EXPECT_EQ(
-      errorOf(kFinder),
-      "sensor.xml:1: <blob_finder camera=\"left\">: is not the label of a camera that is mounted before it; mount "
-      "one, or fix the label");
+  EXPECT_EQ(errorOf(kFinder),
+            "sensor.xml:1: <blob_finder camera=\"left\">: is not the label of a camera with colours that is mounted "
+            "before it; mount one, or fix the label");
   EXPECT_EQ(errorOf("<blob_finder/>"),
             "sensor.xml:1: <blob_finder>: has 0 colours; give 1 to 32, such as <color name=\"gold\" rgb=\"1 0.8 "
             "0.1\"/>");
@@ -111,7 +110,7 @@ TEST(BlobFinder, CannotBeMountedWithoutACamera) {
     sensorFrom("<blob_finder><color name='gold' rgb='1 0.8 0.1'/></blob_finder>");
     FAIL() << "a blob finder without a camera";
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "sensor.xml:1: <blob_finder>: has no camera; mount one before it");
+    EXPECT_STREQ(error.what(), "sensor.xml:1: <blob_finder>: has no camera with colours; mount one before it");
   }
 }
 

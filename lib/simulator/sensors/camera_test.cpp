@@ -155,10 +155,12 @@ TEST(Camera, RejectsInvalidSettings) {
             "sensor.xml:1: <camera rate_hz=\"0\">: must lie in (0, 1000] hertz; drop it for the default, 10");
   EXPECT_EQ(cameraError("<camera tilt_deg='91'/>"),
             "sensor.xml:1: <camera tilt_deg=\"91\">: must lie in [-90, 90] degrees; drop it for the default, 0");
-  EXPECT_EQ(cameraError("<camera zoom='2'/>"),
-            "sensor.xml:1: <camera>: unknown attribute zoom=\"2\"; accepted here are: angle_deg, antialias, "
-            "field_of_view_deg, "
-            "height_px, jpeg_quality, label, noise, rate_hz, tilt_deg, width_px, x_m, y_m, z_m");
+  EXPECT_EQ(
+      cameraError("<camera zoom='2'/>"),
+      "sensor.xml:1: <camera>: unknown attribute zoom=\"2\"; accepted here are: angle_deg, antialias, "
+      "field_of_view_deg, "
+      "height_px, jpeg_quality, label, layers, model, noise, ptz, range_max_m, rate_hz, tilt_deg, width_px, x_m, y_m, "
+      "z_m");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/TPose3D.h>
 
+#include "hardware/camera_head.h"
 #include "hardware/command.h"
 #include "hardware/measurement.h"
 #include "hardware/sensor_info.h"
@@ -24,9 +25,15 @@ struct CameraView {
   int jpeg_quality = 85;                  ///< [1, 100]
   bool is_antialiased = false;            ///< rendered at twice the resolution, and averaged
   CameraErrors errors = {};
-  CameraMoment moment = {};  ///< of the pictures of a call of take(); empty for a camera without errors
+  CameraMoment moment = {};          ///< of the pictures of a call of take(); empty for a camera without errors
+  std::vector<CameraAim> aims = {};  ///< of the pictures of a call of take(); empty for a camera without a head
 
   bool hasErrors() const { return !errors.isNone() || !info.distortion.isNone(); }
+  /// The camera of one picture of a call of take() by a camera with a head: as if it was mounted with this aim.
+  CameraView aimedFor(std::size_t picture) const {
+    const CameraAim& aim = aims[picture];
+    return {zoomed(info, aim.zoom), aimed(robot_from_camera, aim), jpeg_quality, is_antialiased, errors};
+  }
 };
 
 /// Pose of a robot that is not in the world: it is not drawn.

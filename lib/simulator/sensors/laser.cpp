@@ -33,20 +33,6 @@ void readNoise(XmlReader& reader, LaserOptions& o) {
   element->finish();
 }
 
-void readTiming(XmlReader& reader, LaserTiming& timing) {
-  timing.sweep_s = reader.number("sweep_s", Bounds::notNegative(10), timing.sweep_s);
-  timing.interlace_s = reader.number("interlace_s", Bounds::notNegative(10), 0);
-  timing.latency_s = reader.number("latency_s", Bounds::notNegative(10), 0);
-  timing.latency_std_s = reader.number("latency_std_s", Bounds::notNegative(10), 0);
-  timing.latency_tail = reader.number("latency_tail", {0, 1}, 0);
-  timing.latency_tail_factor = reader.number("latency_tail_factor", {1, 100}, timing.latency_tail_factor);
-  if (timing.latency_tail > 0 && timing.latency_std_s == 0) {
-    reader.errorAt("latency_tail", "multiplies latency_std_s, which is 0; set latency_std_s");
-  }
-  timing.times.rate_hz = reader.number("rate_hz", Bounds::notNegative(1000), 0);
-  timing.times.phase_s = reader.number("phase_s", Bounds::notNegative(1e6), 0);
-}
-
 }  // namespace
 
 LaserOptions LaserOptions::read(XmlReader& reader) {
@@ -63,7 +49,8 @@ LaserOptions LaserOptions::read(XmlReader& reader) {
   o.no_return_m = reader.number("no_return_m", {o.range_max_m, 10000}, o.range_max_m);
   o.pans = reader.flag("pans", false);
   readNoise(reader, o);
-  readTiming(reader, o.timing);
+  o.timing.read(reader);
+  o.timing.interlace_s = reader.number("interlace_s", Bounds::notNegative(10), 0);
   return o;
 }
 

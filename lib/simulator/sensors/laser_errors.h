@@ -56,10 +56,9 @@ struct LaserErrors {
 
 /// Random numbers of one beam in one measurement.
 struct BeamDraw {
-  double event = 0;       ///< uniform in [0, 1)
-  double other = 0;       ///< uniform in (0, 1)
-  double gaussian = 0;    ///< mean 0, standard deviation 1
-  double distortion = 0;  ///< the same, of a mixed pixel
+  double event = 0;     ///< uniform in [0, 1)
+  double other = 0;     ///< uniform in (0, 1)
+  double gaussian = 0;  ///< mean 0, standard deviation 1
 };
 
 /// Applies a LaserErrors to many ranges of one measurement.

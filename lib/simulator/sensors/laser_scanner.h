@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "base/xml_reader.h"
 #include "sensors/laser_errors.h"
 #include "sensors/sensor.h"
 
@@ -19,6 +20,11 @@ struct LaserTiming {
   MeasurementTimes times = {};     ///< of the scans: rate_hz in [0, 1000], phase_s in [0, 1e6]
 
   bool operator==(const LaserTiming&) const = default;
+
+  /// Reads all but interlace_s from a sensor's element; sweep_s is the default of its attribute.
+  void read(XmlReader& reader);
+  /// Age of the last beam of a robot's scan [s]. Its random numbers are those of one beam more than the scanner has.
+  double drawLatency(const Snapshot& now, std::uint32_t robot, std::size_t slot, std::size_t beams) const;
 };
 
 /// Makes a scanner of thin beams with errors and times of measurement.

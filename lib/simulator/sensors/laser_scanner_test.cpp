@@ -229,6 +229,17 @@ TEST(SweptPose, LiesOnTheArcOfTheLastMotion) {
   }
 }
 
+TEST(SweptPose, LiesOnTheArcOfAMotionToTheSide) {
+  // To the left with a quarter turn: a circle of radius 1 about (-1, 0), from (0, 0) to (-1, 1).
+  SweptPoseAside pose(PlanarTransform({-1, 1, M_PI_2}, 0.5), {.turn_rad = M_PI_2, .lateral_m = M_PI_2}, 1, 0.25);
+  for (const double angle : {0.0, M_PI / 8, M_PI / 4, 3 * M_PI / 8, M_PI_2}) {
+    const auto at = pose.pointToWorld({0, 0, 0});
+    EXPECT_NEAR(at.x, std::cos(angle) - 1, 1e-12);
+    EXPECT_NEAR(at.y, std::sin(angle), 1e-12);
+    pose.next();
+  }
+}
+
 TEST(LaserScanner, KeepsItsReadingBetweenScans) {
   // Steps of 0.1 s, 4 scans per second: at the steps 3 (0.25 s), 5, 8, 10; shifted by 0.1 s: 1, 4, 6, 9, 11.
   const auto changes = [](const char* xml) {

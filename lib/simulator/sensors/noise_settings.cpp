@@ -29,7 +29,7 @@ bool isTime(const std::string& kind, const std::string& setting) {
   const auto is_among = [&](const auto& names) {
     return std::find(names.begin(), names.end(), setting) != names.end();
   };
-  return kind == "laser" ? is_among(kOfLaser) : kind == "sonar" && is_among(kOfSonar);
+  return kind == "laser" || kind == "lidar" ? is_among(kOfLaser) : kind == "sonar" && is_among(kOfSonar);
 }
 
 std::string valueOf(const XmlElement& setting) {

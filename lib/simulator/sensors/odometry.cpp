@@ -2,19 +2,25 @@
 
 #include <cmath>
 
-#include <mrpt/math/wrap2pi.h>
-
 #include "base/portable_math.h"
+#include "base/wrapped_angle.h"
 
 namespace robosim {
 namespace {
 
 /// The pose after an arc of constant curvature.
-mrpt::math::TPose2D afterArc(const mrpt::math::TPose2D& from, double length_m, double turn_rad) {
-  const double half = turn_rad / 2;
-  const double chord = length_m * (half == 0 ? 1 : portable::sin(half) / half);
+mrpt::math::TPose2D afterArc(const mrpt::math::TPose2D& from, const Motion& motion) {
+  const double half = motion.turn_rad / 2;
+  const double chord_by_arc = half == 0 ? 1 : portable::sin(half) / half;
+  const double chord = motion.length_m * chord_by_arc;
   const auto [sin, cos] = portable::sincos(from.phi + half);
-  return {from.x + chord * cos, from.y + chord * sin, mrpt::math::wrapToPi(from.phi + turn_rad)};
+  mrpt::math::TPose2D to{from.x + chord * cos, from.y + chord * sin, wrappedAngle(from.phi + motion.turn_rad)};
+  if (motion.lateral_m != 0) {
+    const double aside = motion.lateral_m * chord_by_arc;
+    to.x -= aside * sin;
+    to.y += aside * cos;
+  }
+  return to;
 }
 
 class WheelOdometry : public Sensor {
@@ -38,9 +44,10 @@ class WheelOdometry : public Sensor {
         if (has_wheel_errors_) measured = options_.wheels.measured(measured, now.blocked(robot), now.time.period_s);
         measured = withNoise(measured, now.noise(robot, slot));
       }
-      odometry.odom_from_robot = afterArc(odometry.odom_from_robot, measured.length_m, measured.turn_rad);
+      odometry.odom_from_robot = afterArc(odometry.odom_from_robot, measured);
       odometry.speed_mps = measured.length_m / now.time.period_s;
       odometry.turn_radps = measured.turn_rad / now.time.period_s;
+      odometry.lateral_mps = measured.lateral_m / now.time.period_s;
     }
   }
 
@@ -53,6 +60,11 @@ class WheelOdometry : public Sensor {
     measured.length_m += noise.length_std_per_sqrt_m * root_m * rng.gaussian();
     measured.turn_rad += noise.turn_std_per_sqrt_rad * root_rad * rng.gaussian();
     measured.turn_rad += noise.drift_std_per_sqrt_m * root_m * rng.gaussian();
+    if (true_motion.lateral_m != 0) {
+      const double root_lateral_m = std::sqrt(std::abs(true_motion.lateral_m));
+      measured.lateral_m += noise.length_std_per_sqrt_m * root_lateral_m * rng.gaussian();
+      measured.turn_rad += noise.drift_std_per_sqrt_m * root_lateral_m * rng.gaussian();
+    }
     return measured;
   }
 
@@ -74,7 +86,7 @@ OdometryOptions OdometryOptions::read(XmlReader& reader, const Mount& mount) {
     read("length_std_per_sqrt_m", o.noise.length_std_per_sqrt_m);
     read("turn_std_per_sqrt_rad", o.noise.turn_std_per_sqrt_rad);
     read("drift_std_per_sqrt_m", o.noise.drift_std_per_sqrt_m);
-    o.wheels = WheelErrors::read(*element, mount.robot_radius_m);
+    o.wheels = WheelErrors::read(*element, mount.robot_radius_m, mount.drive);
     element->finish();
   }
   return o;

@@ -6,8 +6,9 @@
 #include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "geometry/shapes/path.h"
-#include "hardware/neighbour_quantities.h"
+#include "hardware/numbered_quantities.h"
 #include "sensors/beam_mounts.h"
+#include "sensors/line_of_sight.h"
 #include "sensors/range_noise.h"
 
 namespace robosim {
@@ -29,9 +30,6 @@ struct Candidate {
     return distance_m != other.distance_m ? distance_m < other.distance_m : robot < other.robot;
   }
 };
-
-/// A value as recordings keep it.
-double asFloat(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 class RangeAndBearing : public Sensor {
  public:
@@ -106,10 +104,9 @@ class RangeAndBearing : public Sensor {
       bearing_rad += options_.bearing_std_rad * rng.gaussian();
       if (!std::isfinite(range_m)) return false;
     }
-    bearing_rad -= 2 * M_PI * std::ceil((bearing_rad - M_PI) / (2 * M_PI));  // to (-π, π]
     values[0] = other.robot;
     values[1] = asFloat(range_m);
-    values[2] = asFloat(bearing_rad);
+    values[2] = asFloat(wrapped(bearing_rad));
     return true;
   }
 

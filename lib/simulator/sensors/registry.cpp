@@ -10,11 +10,19 @@
 #include "sensors/bumper.h"
 #include "sensors/camera.h"
 #include "sensors/compass.h"
+#include "sensors/encoders.h"
+#include "sensors/fiducial.h"
+#include "sensors/gnss.h"
 #include "sensors/gripper.h"
+#include "sensors/ground.h"
 #include "sensors/heat.h"
+#include "sensors/imu.h"
 #include "sensors/infrared.h"
 #include "sensors/laser.h"
+#include "sensors/lidar.h"
+#include "sensors/light.h"
 #include "sensors/odometry.h"
+#include "sensors/omni_camera.h"
 #include "sensors/range_and_bearing.h"
 #include "sensors/sonar.h"
 
@@ -23,14 +31,45 @@ namespace {
 
 using Made = std::unique_ptr<Sensor>;
 
+std::size_t raycastPixels(const CameraInfo& camera) {
+  return camera.isRaycast() ? std::size_t{camera.width_px} * camera.height_px : 0;
+}
+
+std::size_t raycastPixels(const Mount& mount) {
+  std::size_t pixels = 0;
+  for (const auto& sensor : mount.mounted) {
+    if (sensor->info().kind == SensorKind::camera) pixels += raycastPixels(sensor->info().camera);
+  }
+  return pixels;
+}
+
+/// The head of a camera is mounted directly before it (makeHeadOf()).
+Made readCamera(XmlReader& reader, const Mount& mount) {
+  const CameraOptions options = CameraOptions::read(reader);
+  const auto is_head = [](const auto& sensor) { return CameraAim::isOf(sensor->info()); };
+  if (options.head && std::any_of(mount.mounted.begin(), mount.mounted.end(), is_head)) {
+    reader.error("is the second camera with a <ptz> of its robot; a controller commands one, so drop one <ptz>");
+  }
+  // Rejected before the memory of its pixels is allocated.
+  const std::size_t before = raycastPixels(mount), pixels = raycastPixels(options.view.info);
+  if (before + pixels > kRobotPixelsMax) {
+    reader.error("has " + std::to_string(pixels) + " pixels, and the ray-cast cameras before it " +
+                 std::to_string(before) + "; a robot may have " + std::to_string(kRobotPixelsMax) +
+                 " in all, so use fewer");
+    return nullptr;
+  }
+  return makeCamera(options, mount.mounted.size());
+}
+
 Made readBlobFinder(XmlReader& reader, const Mount& mount) {
   const BlobFinderOptions options = BlobFinderOptions::read(reader);
   Made finder = makeBlobFinder(options, mount.mounted);
   if (finder) return finder;
   if (options.camera.empty()) {
-    reader.error("has no camera; mount one before it");
+    reader.error("has no camera with colours; mount one before it");
   } else {
-    reader.errorAt("camera", "is not the label of a camera that is mounted before it; mount one, or fix the label");
+    reader.errorAt("camera",
+                   "is not the label of a camera with colours that is mounted before it; mount one, or fix the label");
   }
   return nullptr;
 }
@@ -44,9 +83,14 @@ bool fits(XmlReader& reader, const Mount& mount, std::size_t rays) {
   return false;
 }
 
-/// A sonar with too many rays is rejected before its memory is allocated.
+/// Sensors with too many rays are rejected before their memory is allocated.
 Made make(XmlReader& reader, const Mount& mount, const SonarOptions& options) {
   return fits(reader, mount, options.rayCount()) ? makeSonar(options) : nullptr;
+}
+
+Made make(XmlReader& reader, const Mount& mount, const LidarOptions& options) {
+  const auto rays = static_cast<std::size_t>(options.layers) * static_cast<std::size_t>(options.beams);
+  return fits(reader, mount, rays) ? makeLidar(options) : nullptr;
 }
 
 // clang-format off
@@ -57,6 +101,8 @@ const SensorType kOwnTypes[] = {
     {"laser", "A planar laser scanner, or one beam that pans.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeLaser(LaserOptions::read(r)); },
      [](XmlReader& r, const Mount& m) -> Made { return makeLaser(LaserOptions::read2005(r, m)); }},
+    {"lidar", "A laser scanner with several layers.", true,
+     [](XmlReader& r, const Mount& m) -> Made { return make(r, m, LidarOptions::read(r)); }, nullptr},
     {"heat", "The sum of the heat of all sources within range.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeHeat(HeatOptions::read(r)); },
      [](XmlReader& r, const Mount& m) -> Made { return makeHeat(HeatOptions::read2005(r, m)); }},
@@ -69,12 +115,19 @@ const SensorType kOwnTypes[] = {
     {"compass", "The heading in the world.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeCompass(CompassOptions::read(r)); }, nullptr},
     {"camera", "Colour pictures.", true,
-     [](XmlReader& r, const Mount&) -> Made { return makeCamera(CameraOptions::read(r)); }, nullptr},
+     [](XmlReader& r, const Mount& m) -> Made { return readCamera(r, m); }, nullptr},
     {"battery", "The battery's voltage, which falls with use.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeBattery(BatteryOptions::read(r)); }, nullptr},
     {"beacons", "Ranges to ultra-wideband beacons.", true, readBeacons, nullptr},
     {"range_and_bearing", "Distance and direction to the nearest robots in line of sight.", true, readRangeAndBearing,
      nullptr},
+    {"gnss", "The position on the earth by satellites.", true, readGnss, nullptr},
+    {"imu", "Turn rate and accelerations.", true, readImu, nullptr},
+    {"encoders", "The angles and speeds of the two wheels.", true, readEncoders, nullptr},
+    {"ground", "Brightness of the floor at points below the robot.", true, readGround, nullptr},
+    {"light", "Light sensors around the robot.", true, readLight, nullptr},
+    {"omni_camera", "Direction, distance and colour of the lights and LEDs all around.", true, readOmniCamera, nullptr},
+    {"fiducial", "Number, distance, direction and orientation of marks.", true, readFiducial, nullptr},
     {"gripper", "Two paddles that close on an object between them, with two light barriers.", false, readGripper, nullptr},
     {"blob_finder", "The largest blob of each given colour in a camera's picture.", false, readBlobFinder, nullptr},
 };

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/xml_reader.h"
+#include "hardware/drive.h"
 #include "sensors/sensor.h"
 
 namespace robosim {
@@ -10,6 +11,8 @@ namespace robosim {
 /// Maximum number of rays and sectors of one robot's sensors. A sonar of the model `rays` counts every ray of its
 /// bundle.
 constexpr std::size_t kRobotRaysMax = 100'000;
+/// Maximum number of pixels of a robot's ray-cast cameras.
+constexpr std::size_t kRobotPixelsMax = 4 * kRawPixelsMax;
 
 /// Properties of the robot that carries a sensor, for the sensor's reader.
 struct Mount {
@@ -18,6 +21,7 @@ struct Mount {
   double robot_height_m = 0;
   std::span<const std::shared_ptr<const Sensor>> mounted = {};  ///< sensors mounted before, by slot
   std::size_t mounted_rays = 0;                                 ///< sum of their Sensor::rayCount()
+  Drive drive = {};
 };
 
 /// A kind of sensor and the readers of its elements.

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <mrpt/math/TPoint3D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include "base/portable_math.h"
 #include "base/random.h"
 #include "base/sim_time.h"
 #include "geometry/scene.h"
@@ -16,8 +18,11 @@
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
+#include "sensors/floor_picture.h"
 #include "sensors/image_source.h"
+#include "sensors/raycast/picture.h"
 #include "world/changed_objects.h"
+#include "world/georeference.h"
 #include "world/world.h"
 
 namespace robosim {
@@ -29,12 +34,29 @@ struct HeatSource {
   BodyId body = kNoBody;
 };
 
+/// A body that some sensors perceive otherwise than by its shape: the floor's areas, lights and fiducial marks.
+struct FeaturedBody {
+  Body body;  ///< at its present place
+  Solid solid;
+  BodyId id = kNoBody;
+  bool is_present = true;
+
+  /// Whether sensors need it.
+  static bool isOne(const Body& body) { return body.isFloor() || body.light_cd != 0 || body.fiducial != 0; }
+};
+
 /// Motion of a robot in the last time step.
 struct Motion {
-  double length_m = 0;  ///< driven, signed
+  double length_m = 0;  ///< driven ahead, signed
   double turn_rad = 0;
+  double lateral_m = 0;  ///< to the left; of omnidirectional and tracked drives
   bool operator==(const Motion&) const = default;
 };
+
+/// Length of its way over the ground, without sign [m].
+inline double groundLength(const Motion& motion) {
+  return motion.lateral_m == 0 ? std::abs(motion.length_m) : portable::hypot(motion.length_m, motion.lateral_m);
+}
 
 /// A robot's gripper that is closed.
 struct ClosedGripper {
@@ -52,6 +74,7 @@ struct Snapshot {
   std::span<const mrpt::math::TPose2D> world_from_robot;
   std::span<const PlanarTransform> frames;  ///< the same poses, at the height of the robots' undersides
   std::span<const Motion> last_motion;
+  std::span<const Motion> former_motion = {};  ///< of the step before the last; empty unless a sensor uses it
   std::span<const float> laser_pan_rad;
   std::span<const Activity> activity = {};  ///< empty: no robot is absent
   SimTime time;
@@ -64,11 +87,29 @@ struct Snapshot {
   std::span<const double> driven_m = {};                ///< distance driven since the start; empty: none
   std::span<const float> reflectivity = {};             ///< by body; kReflectivity for bodies beyond its end
   std::span<const ClosedGripper> closed_grippers = {};  ///< in ascending order of robots
+  std::span<const FeaturedBody> featured = {};          ///< objects in the world's order, then robots
+  std::span<const FloorPicture> floor_pictures = {};    ///< the last one is on top
+  std::span<const Command> commands = {};               ///< of this step, with the colours of LEDs
 
-  /// Length of the commanded path that a robot could not drive in this step, signed [m].
-  double blocked(std::uint32_t robot) const {
-    if (time.step == 0 || paths.empty()) return 0;  // paths of step 0 are those of the run before
-    return paths[robot].length_m - paths[robot].clippedLength();
+  const GeoReference* georeference = nullptr;  ///< of the world; null: none
+
+  /// @name What ray-cast cameras see; empty without one
+  ///@{
+  std::span<const SurfaceLook> looks = {};         ///< by body
+  std::span<const std::uint32_t> identities = {};  ///< by body, as in RawPicture::identity
+  const FloorLook* floor = nullptr;
+  ///@}
+
+  /// Motion along the commanded path that a robot could not make in this step; a turn only where it stops with the
+  /// path.
+  Motion blocked(std::uint32_t robot) const {
+    if (time.step == 0 || paths.empty()) return {};  // paths of step 0 are those of the run before
+    const Path& path = paths[robot];
+    const double length_m = path.length_m - path.clippedLength();
+    const double turn_rad = path.turn_rad - path.clippedTurn();
+    if (path.direction_rad == 0) return {length_m, turn_rad, 0};
+    const auto [sin, cos] = portable::sincos(path.direction_rad);
+    return {length_m * cos, turn_rad, length_m * sin};
   }
 
   /// Share of light that a body's surface returns, [0, 1].
@@ -105,6 +146,10 @@ class Sensor {
   virtual bool needsHostProcess() const { return false; }
   /// Whether sense() casts its beams with the robot as owner, whose neighbours then cover the beams.
   virtual bool usesNeighbours() const { return true; }
+  /// The slot before its own whose measurement it reads: a camera that of its head, a blob finder that of its camera.
+  virtual std::optional<std::size_t> slotRead() const { return std::nullopt; }
+  /// Whether it reads Snapshot::former_motion.
+  virtual bool usesFormerMotion() const { return false; }
   /// Distance from its robot's centre beyond which no part of another robot affects its measurement [m]; infinite if
   /// there is no such distance. Ranks of a distributed run have the state of the robots within it only.
   /// @param speed_max_mps of its robot

@@ -234,11 +234,13 @@ TEST(Sonar, ReportsFaultsOfItsElement) {
   EXPECT_EQ(complaint("<sonar model='cone'><at/></sonar>"),
             "sensor.xml:1: <sonar model=\"cone\">: is unknown; accepted are: sector, rays");
   EXPECT_EQ(complaint("<sonar beamwidth_deg='20'><at/></sonar>").find("sensor.xml:1: <sonar>: unknown attribute"), 0u);
-  EXPECT_EQ(
-      complaint("<radar/>"),
-      "sensor.xml:1: <radar>: is not a sensor; accepted are: sonar, laser, heat, infrared, bumper, odometry, compass, "
-      "camera, battery, beacons, range_and_bearing, gripper, blob_finder, "
-      "and the 2005 <sensor>");
+  EXPECT_EQ(complaint("<radar/>"),
+            "sensor.xml:1: <radar>: is not a sensor; accepted are: sonar, laser, lidar, heat, infrared, bumper, "
+            "odometry, compass, "
+            "camera, battery, beacons, range_and_bearing, gnss, imu, encoders, ground, light, omni_camera, fiducial, "
+            "gripper, "
+            "blob_finder, "
+            "and the 2005 <sensor>");
 }
 
 }  // namespace

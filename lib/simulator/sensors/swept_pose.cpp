@@ -6,15 +6,22 @@
 
 namespace robosim {
 
-SweptPose::SweptPose(const PlanarTransform& now, const Motion& last_motion, double first_share, double step_share)
+template <bool kIsAside>
+SweptPoseOf<kIsAside>::SweptPoseOf(const PlanarTransform& now, const Motion& last_motion, double first_share,
+                                   double step_share)
     : now_(now),
       length_m_(last_motion.length_m),
+      lateral_m_(last_motion.lateral_m),
       diameter_m_(0),
+      lateral_diameter_m_(0),
       // Below, the arc deviates from its chord by less than a nanometre per metre.
       is_straight_(std::abs(last_motion.turn_rad) < 1e-9),
       share_(first_share),
       step_share_(step_share) {
-  if (!is_straight_) diameter_m_ = 2 * length_m_ / last_motion.turn_rad;
+  if (!is_straight_) {
+    diameter_m_ = 2 * length_m_ / last_motion.turn_rad;
+    lateral_diameter_m_ = 2 * lateral_m_ / last_motion.turn_rad;
+  }
   const auto half = portable::sincos(last_motion.turn_rad * first_share / 2);
   half_cos_ = half.cos;
   half_sin_ = half.sin;
@@ -23,5 +30,8 @@ SweptPose::SweptPose(const PlanarTransform& now, const Motion& last_motion, doub
   half_step_sin_ = half_step.sin;
   place();
 }
+
+template class SweptPoseOf<false>;
+template class SweptPoseOf<true>;
 
 }  // namespace robosim

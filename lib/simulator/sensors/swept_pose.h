@@ -5,12 +5,14 @@ namespace robosim {
 
 /// Poses of a robot at equally spaced times before the time step, on the arc of its last motion: exact while speed and
 /// turn rate are constant. Successive poses are computed by rotation, without further sines.
-class SweptPose {
+/// @tparam kIsAside whether the motion may have a lateral part
+template <bool kIsAside>
+class SweptPoseOf {
  public:
   /// @param now pose at the time step
   /// @param first_share age of the first pose, in durations of the last motion
   /// @param step_share by which each pose is younger than the one before
-  SweptPose(const PlanarTransform& now, const Motion& last_motion, double first_share, double step_share);
+  SweptPoseOf(const PlanarTransform& now, const Motion& last_motion, double first_share, double step_share);
 
   /// Advances to the next pose.
   void next() {
@@ -35,13 +37,21 @@ class SweptPose {
     const double chord_m = is_straight_ ? length_m_ * share_ : diameter_m_ * half_sin_;
     x_ = -chord_m * half_cos_;
     y_ = chord_m * half_sin_;
+    if constexpr (kIsAside) placeAside();
     cos_ = half_cos_ * half_cos_ - half_sin_ * half_sin_;
     sin_ = -2 * half_sin_ * half_cos_;
   }
+  /// Of a motion that is not only along the heading.
+  void placeAside() {
+    const double chord_m = is_straight_ ? lateral_m_ * share_ : lateral_diameter_m_ * half_sin_;
+    x_ -= chord_m * half_sin_;
+    y_ -= chord_m * half_cos_;
+  }
 
   PlanarTransform now_;
-  double length_m_;    ///< of the whole last motion
-  double diameter_m_;  ///< of the arc; unused for a straight motion
+  double length_m_, lateral_m_;  ///< of the whole last motion
+  double diameter_m_;            ///< of the arc of length_m_; unused for a straight motion
+  double lateral_diameter_m_;    ///< of the arc of lateral_m_
   bool is_straight_;
   double share_, step_share_;
   double half_cos_, half_sin_;            ///< of half the turn from the pose to now
@@ -49,5 +59,8 @@ class SweptPose {
   double x_ = 0, y_ = 0;                  ///< of the pose, in the frame of now
   double cos_ = 1, sin_ = 0;              ///< of the heading, in the frame of now
 };
+
+using SweptPose = SweptPoseOf<false>;
+using SweptPoseAside = SweptPoseOf<true>;
 
 }  // namespace robosim

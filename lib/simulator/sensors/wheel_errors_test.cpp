@@ -60,6 +60,32 @@ TEST(WheelErrors, AreNoneByDefaultWithNoise) {
   EXPECT_NEAR(read.wheelbase_m, 0.25, 1e-12);
 }
 
+TEST(WheelErrors, AreThoseOfTheDrive) {
+  const auto faultOf = [](const char* attribute, DriveKind kind) {
+    ErrorList errors;
+    const XmlElement noise{"noise", "", {{attribute, "1"}}, {}, {}};
+    XmlReader reader(noise, "r.xml", errors);
+    WheelErrors::read(reader, 0.2, {.kind = kind});
+    reader.finish();
+    return !errors.empty();
+  };
+  EXPECT_FALSE(faultOf("lateral_slip", DriveKind::omni));
+  EXPECT_TRUE(faultOf("lateral_slip", DriveKind::differential));
+  EXPECT_FALSE(faultOf("steering_offset_deg", DriveKind::car));
+  EXPECT_TRUE(faultOf("steering_offset_deg", DriveKind::tracked));
+  EXPECT_FALSE(faultOf("diameter_ratio", DriveKind::tracked));
+  EXPECT_TRUE(faultOf("lateral_slip", DriveKind::car));
+}
+
+TEST(WheelErrors, OfACarHaveNoEffectFromRatiosOfItsDiameters) {
+  ErrorList errors;
+  const XmlElement noise{"noise", "", {{"diameter_ratio", "1.1"}, {"turn_slip_s", "0.5"}}, {}, {}};
+  XmlReader reader(noise, "r.xml", errors);
+  const WheelErrors read = WheelErrors::read(reader, 0.2, {.kind = DriveKind::car, .wheelbase_m = 0.5});
+  EXPECT_TRUE(read.isNone()) << "its turns are measured by the steering";
+  EXPECT_TRUE(errors.empty());
+}
+
 TEST(WheelErrors, ReportsImpossibleRatios) {
   try {
     wheels("diameter_ratio='3'");

@@ -14,9 +14,9 @@ void CameraFrameCache::update(const std::set<std::uint32_t>& watched, const std:
 void CameraFrameCache::note(std::size_t robot, const Readings& readings) {
   for (std::size_t slot = 0; slot < readings.measurements.size(); ++slot) {
     const auto* image = std::get_if<Image>(&readings.measurements[slot]);
-    if (!image || image->jpeg.empty()) continue;
+    if (!image || image->isEmpty()) continue;
     Picture& picture = pictures_[{robot, slot}];
-    if (picture.jpeg.empty() || picture.step != readings.time.step) picture = {readings.time.step, image->jpeg};
+    if (picture.image.isEmpty() || picture.step != readings.time.step) picture = {readings.time.step, *image};
   }
 }
 

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,7 @@ class CameraFrameCache {
  public:
   struct Picture {
     std::uint64_t step = 0;
-    std::string jpeg;
+    Image image;
   };
 
   /// Updates the cache for one step: stores the pictures in the readings of the watched robots, and drops the pictures

@@ -18,10 +18,10 @@ TEST(CameraFrameCache, KeepsThePictureOfAWatchedRobotUntilItsCameraTakesTheNext)
   camera_frames.update({0}, {readingsWith("first", 10)});
   camera_frames.update({0}, {readingsWith("", 11)});
   ASSERT_NE(camera_frames.find(0, 0), nullptr);
-  EXPECT_EQ(camera_frames.find(0, 0)->jpeg, "first");
+  EXPECT_EQ(camera_frames.find(0, 0)->image.jpeg, "first");
   EXPECT_EQ(camera_frames.find(0, 0)->step, 10u);
   camera_frames.update({0}, {readingsWith("second", 12)});
-  EXPECT_EQ(camera_frames.find(0, 0)->jpeg, "second");
+  EXPECT_EQ(camera_frames.find(0, 0)->image.jpeg, "second");
   EXPECT_EQ(camera_frames.find(0, 0)->step, 12u);
 }
 

@@ -229,6 +229,7 @@ struct EnvironmentServer::Impl {
     panels.execute(operations);
     run.poll(run_control);
     addRobots(run);  // of clients that the run itself serves
+    if (auto next = run.takeRequestedRun()) replace(run, std::move(next));
     if (run_control.speed != speed) due = serving.now();
   }
 

@@ -204,8 +204,11 @@ void RobotSession::applyLeftAnswers(Environment& environment) {
   for (const auto& answer : left_answers_) {
     if (!driver_of_[answer.robot]) {
       const Command& last = environment.state().commands[answer.robot];
-      environment.setCommand(answer.robot,
-                             {.activity = answer.activity, .emergency_stop = last.emergency_stop, .grip = last.grip});
+      environment.setCommand(answer.robot, {.activity = answer.activity,
+                                            .emergency_stop = last.emergency_stop,
+                                            .grip = last.grip,
+                                            .led_color = last.led_color,
+                                            .camera_head = last.camera_head});
     }
     for (const auto& message : answer.messages) send(environment, answer.robot, message);
     if (answer.checks_win) environment.checkWin(answer.robot);
@@ -341,7 +344,11 @@ std::size_t RobotSession::applyAnswers(Environment& environment) {
   for (const auto robot : left_) {
     // As a driven robot stops when its driver is gone. It drops nothing.
     const Command& last = environment.state().commands[robot];
-    if (!driver_of_[robot]) environment.setCommand(robot, {.emergency_stop = last.by_driver, .grip = last.grip});
+    if (!driver_of_[robot])
+      environment.setCommand(robot, {.emergency_stop = last.by_driver,
+                                     .grip = last.grip,
+                                     .led_color = last.led_color,
+                                     .camera_head = last.camera_head});
   }
   left_.clear();
   applyLeftAnswers(environment);

@@ -44,6 +44,9 @@ class ServedRun {
   /// Called at least every ServingState::kPollInterval, between steps, also while the run is paused: serves clients
   /// that are not the server's, which may change how the run proceeds.
   virtual void poll(RunControl& /*control*/) {}
+  /// A run that a client of the run itself has requested and that is ready to replace this one, once; null for none.
+  /// Called after poll().
+  virtual std::unique_ptr<PreparedRun> takeRequestedRun() { return nullptr; }
   /// Requests pictures of robots for clients, in addition to those that the run itself needs: flags by robot, until the
   /// next call. Those of the present step are taken if they have not been. No effect by default.
   virtual void requestPictures(const std::vector<std::uint8_t>& /*robots*/) {}

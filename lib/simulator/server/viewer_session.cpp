@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "hardware/picture_file.h"
 #include "net/wire_error.h"
 #include "wire/viewed_run.h"
 #include "wire/world_wire.h"
@@ -13,7 +14,8 @@ namespace robosim {
 namespace {
 
 RobotSnapshot withoutReadings(const State& state, std::size_t i) {
-  return {state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0, state.activity[i], std::nullopt};
+  return {state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0,
+          state.activity[i],         std::nullopt,           state.commands[i].led_color};
 }
 
 }  // namespace
@@ -160,7 +162,7 @@ void ViewerSession::addPictures(Stream& stream, v1::Frame& frame, bool repeats) 
       if (!is_new && !repeats) continue;
       sent->second = picture->step;
       v1::Measurement& measurement = *view.mutable_readings()->mutable_measurements(slot);
-      measurement.set_jpeg(picture->jpeg);
+      measurement.set_jpeg(jpegOf(picture->image));
       measurement.set_step(picture->step);
       measurement.set_is_new(is_new);
     }

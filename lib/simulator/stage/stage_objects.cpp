@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
@@ -33,10 +34,20 @@ class ModelTranslator {
   }
 
   void translate() {
+    translateSolid();
+    if (fiducial_ != 0) {
+      context_.notes->ignored(*reader_.find("fiducial_return"),
+                              "the model is no solid of its own, which could be marked");
+    }
+  }
+
+ private:
+  void translateSolid() {
     shape_ = readShape(reader_, size_, hasBody(reader_.entity().kind), *context_.files, *context_.notes);
     color_ = colorOf(reader_, *context_.notes).value_or(std::array<float, 3>{1, 0, 0});
     const bool is_movable = reader_.flag("gripper_return", false);
     mass_kg_ = reader_.number("mass", 10);
+    fiducial_ = readFiducial(reader_, *context_.notes);
     if (shape_.prisms.empty() && !shape_.bitmap) return;
     if (!readVisibility(is_movable)) return;
     if (!(size_.z > 0)) {
@@ -51,7 +62,6 @@ class ModelTranslator {
     if (shape_.bitmap) addBitmap(*shape_.bitmap);
   }
 
- private:
   void note(const std::string& text) {
     context_.notes->add(reader_.entity().place, "'" + reader_.entity().type + "' " + text);
   }
@@ -153,6 +163,7 @@ class ModelTranslator {
     solid.add("height", toText(heights.z_max_m - heights.z_min_m));
     solid.add("color", colorText(color_));
     if (reflectivity_) solid.add("reflectivity", toText(*reflectivity_));
+    if (const double mark = std::exchange(fiducial_, 0); mark != 0) solid.add("fiducial", toText(mark));
     return solid;
   }
 
@@ -174,10 +185,20 @@ class ModelTranslator {
   Shape shape_;
   std::array<float, 3> color_{};
   double mass_kg_ = 1;
+  double fiducial_ = 0;  ///< of the first solid
   std::optional<double> reflectivity_;
 };
 
 }  // namespace
+
+double readFiducial(const PropertyReader& reader, Notes& notes) {
+  const double number = reader.number("fiducial_return", 0);
+  if (reader.number("fiducial_key", 0) != 0)
+    notes.add(reader.find("fiducial_key")->place, "fiducial sensors see marks of any fiducial_key");
+  if (number >= 0 && number <= 65535 && number == std::floor(number)) return number;
+  notes.add(reader.find("fiducial_return")->place, "a fiducial_return is a whole number up to 65,535, and is left out");
+  return 0;
+}
 
 void Extent::include(double x, double y, double radius_m) {
   const Bounds2D around{x - radius_m, x + radius_m, y - radius_m, y + radius_m};

@@ -20,6 +20,8 @@ struct Extent {
   void include(double x, double y, double radius_m);
 };
 
+/// The number of a model's fiducial mark; 0 for none, and for an impossible one.
+double readFiducial(const PropertyReader& reader, Notes& notes);
 /// The colour of a model; nullopt if it has none, a random or an unknown one.
 std::optional<std::array<float, 3>> colorOf(const PropertyReader& reader, Notes& notes);
 /// As text of an element <color>.

@@ -7,6 +7,7 @@
 #include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "stage/stage_names.h"
+#include "stage/stage_objects.h"
 #include "stage/stage_sensors.h"
 #include "stage/stage_shape.h"
 
@@ -17,6 +18,11 @@ namespace {
 constexpr double kPlanarHeight_m = 0.3;
 /// Without acceleration_bounds, Stage changes speeds at once: the largest values of robot types.
 constexpr double kAtOnce_mps2 = 1000, kAtOnce_radps2 = 36000 * kRadPerDeg;
+
+constexpr double kLeast = 1e-6;  ///< stands for 0 where that is not valid
+/// In Stage a car turns by at most its speed by its wheelbase, v · sin(steering angle) / wheelbase: as one does that is
+/// steered by 45°, v · tan(steering angle) / wheelbase.
+constexpr double kCarSteering_deg = 45;
 
 /// Whether a body is as good as round: one block with eight corners or more, of which none is far from a circle.
 bool isRound(const Shape& shape, const Size& size) {
@@ -67,19 +73,22 @@ class RobotTranslator {
       setNumber(body, "width_m", clamped(size_.y));
     }
     setNumber(body, "height_m", clamped(std::max(size_.z, top_m_)));
+    if (const double mark = readFiducial(reader_, *context_.notes); mark != 0) setNumber(body, "fiducial", mark);
   }
 
   void addLimits() {
     const auto drive = reader_.text("drive", "diff");
-    if (drive != "diff") {
-      context_.notes->add(reader_.find("drive")->place, "drive \"" + drive + "\" is driven as differential");
-    }
-    double speed_mps = 1, turn_radps = 90 * kRadPerDeg, accel_mps2 = kAtOnce_mps2, turn_radps2 = kAtOnce_radps2;
+    const double wheelbase_m = reader_.length("wheelbase", 1);
+    double speed_mps = 1, lateral_mps = 1, turn_radps = 90 * kRadPerDeg, accel_mps2 = kAtOnce_mps2,
+           turn_radps2 = kAtOnce_radps2;
     const double unit = reader_.lengthUnit_m(), angle = reader_.angleUnit_rad();
     const auto read = [&](const char* name, double& along, double& about) {
       const auto bounds = reader_.numbers(name, 2);
       if (bounds.empty()) return;
       along = std::max(std::abs(bounds[0]), std::abs(bounds[1])) * unit;
+      if (&along == &speed_mps && bounds.size() >= 4) {
+        lateral_mps = std::max(std::abs(bounds[2]), std::abs(bounds[3])) * unit;
+      }
       if (bounds.size() >= 8) about = std::max(std::abs(bounds[6]), std::abs(bounds[7])) * angle;
       const bool is_symmetric = bounds[0] == -bounds[1] && (bounds.size() < 8 || bounds[6] == -bounds[7]);
       if (!is_symmetric) {
@@ -91,19 +100,39 @@ class RobotTranslator {
     read("acceleration_bounds", accel_mps2, turn_radps2);
     if (const auto old = reader_.numbers("max_speed", 1); !old.empty()) {
       speed_mps = std::abs(old[0]) * unit;
-      if (old.size() > 2) turn_radps = std::abs(old.back()) * angle;
+      if (old.size() > 2) {
+        lateral_mps = std::abs(old[1]) * unit;
+        turn_radps = std::abs(old.back()) * angle;
+      }
     }
     if (const auto velocity = reader_.numbers("velocity", 1);
         std::any_of(velocity.begin(), velocity.end(), [](double each) { return each != 0; })) {
       context_.notes->add(reader_.find("velocity")->place, "robots start at rest, without their 'velocity'");
     }
-    constexpr double kLeast = 1e-6;
     XmlElement& limits = translated_.type.add("limits");
     setNumber(limits, "speed_max_mps", std::clamp(speed_mps, kLeast, 100.0));
     setNumber(limits, "accel_mps2", std::clamp(accel_mps2, kLeast, kAtOnce_mps2));
     setNumber(limits, "decel_mps2", std::clamp(accel_mps2, kLeast, kAtOnce_mps2));
     setNumber(limits, "turn_max_degps", std::clamp(toDegrees(turn_radps), kLeast, 3600.0));
     setNumber(limits, "turn_accel_degps2", std::clamp(toDegrees(turn_radps2), kLeast, 36000.0));
+    addDrive(drive, lateral_mps, wheelbase_m);
+  }
+
+  void addDrive(const std::string& drive, double lateral_mps, double wheelbase_m) {
+    const auto add = [&](const char* type) -> XmlElement& {
+      XmlElement& element = translated_.type.add("drive");
+      element.attributes.emplace_back("type", type);
+      return element;
+    };
+    if (drive == "omni") {
+      setNumber(add("omni"), "lateral_max_mps", std::clamp(lateral_mps, kLeast, 100.0));
+    } else if (drive == "car") {
+      XmlElement& car = add("car");
+      setNumber(car, "wheelbase_m", std::clamp(wheelbase_m, kLeast, 100.0));
+      setNumber(car, "steering_max_deg", kCarSteering_deg);
+    } else if (drive != "diff") {
+      context_.notes->add(reader_.find("drive")->place, "drive \"" + drive + "\" is driven as differential");
+    }
   }
 
   void addOdometry() {

@@ -251,16 +251,16 @@ class SensorTranslator {
   }
 
   void addFiducial() {
-    const double range_m = std::max(reader_.length("range_max", 8), reader_.length("range_max_id", 5));
-    reader_.length("range_min", 0);
-    reader_.angle("fov", 0);
     reader_.number("ignore_zloc", 0);
-    note("'" + reader_.entity().type + "' is a range_and_bearing sensor, which sees robots only, in all directions");
-    XmlElement& sensor = sensors_.add("range_and_bearing");
-    const double others = mount_.robots > 1 ? static_cast<double>(mount_.robots - 1) : 1;
-    setNumber(sensor, "count", std::clamp(others, 1.0, 64.0));
-    setNumber(sensor, "range_max_m", std::clamp(range_m, 0.001, 100.0));
-    setNumber(sensor, "z_m", std::clamp(mount_.robot_height_m / 2, 0.0, 10.0));
+    if (reader_.length("range_min", 0) > 0)
+      note("'" + reader_.entity().type + "' sees marks nearer than its range_min, too");
+    XmlElement& sensor = sensors_.add("fiducial");
+    setPose(sensor, {mount_.robot_from_device.plan, mount_.robot_height_m / 2});
+    setNumber(sensor, "angle_deg", degrees(mount_.robot_from_device.plan.phi));
+    setNumber(sensor, "range_max_m", std::clamp(reader_.length("range_max", 8), 0.001, 100.0));
+    setNumber(sensor, "id_range_max_m", std::clamp(reader_.length("range_max_id", 5), 0.001, 100.0));
+    setNumber(sensor, "field_of_view_deg", std::clamp(toDegrees(reader_.angle("fov", 180 * kRadPerDeg)), 0.1, 360.0));
+    setNumber(sensor, "count", 64);
   }
 
   void addGripper() {

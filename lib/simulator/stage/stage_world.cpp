@@ -112,13 +112,6 @@ class WorldTranslator {
       notes_.add(reader.entity().place,
                  "'" + reader.entity().type + "' is seen by cameras, in spite of its blob_return 0");
     }
-    const bool is_robot = reader.entity().kind == "position";
-    if (is_robot || !reader.has("fiducial_return")) return;
-    if (reader.number("fiducial_return", 0) == 0) return;
-    const auto& property = *reader.find("fiducial_return");
-    reader.entity().properties.at("fiducial_return")->is_used = false;
-    reader.entity().properties.at("fiducial_return")->is_noted = true;
-    notes_.ignored(property, "a range_and_bearing sensor sees robots only");
   }
 
   /// The name, or the type with a number as in Stage: "model:0".
@@ -158,8 +151,6 @@ class WorldTranslator {
 
   void readVisibility(const PropertyReader& reader) {
     reader.number("mass", 0);
-    reader.number("fiducial_return", 0);
-    reader.number("fiducial_key", 0);
     reader.number("update_interval", 0);
     const bool is_visible = reader.number("ranger_return", 1) >= 0 && reader.number("laser_return", 1) > 0;
     const bool is_gripped = reader.flag("gripper_return", false);

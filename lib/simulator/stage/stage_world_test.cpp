@@ -253,7 +253,8 @@ TEST_F(StageWorld, HasTheOtherDevicesOfARobotOrNotesThem) {
        {R"(wheelbase_ratio="1.034906585")",
         R"(angle_deg="10" width_px="64" height_px="48" field_of_view_deg="60" rate_hz="5" tilt_deg="-5" label="eye")",
         R"(<blob_finder label="blobs">)", R"(<color name="red" rgb="1 0 0"/>)",
-        R"(<gripper opening_m="0.24" reach_m="0.132")", R"(<bumper segments="6"/>)", "<range_and_bearing",
+        R"(<gripper opening_m="0.24" reach_m="0.132")", R"(<bumper segments="6"/>)",
+        R"(range_max_m="8" id_range_max_m="5" field_of_view_deg="180")",
         R"(<noise std_m="0.1" std_per_m="0" specular_deg="180"/>)", R"(<battery standing_h="2" driving_h="2"/>)"}) {
     EXPECT_NE(type.find(part), std::string::npos) << part << "\n" << type;
   }
@@ -261,8 +262,19 @@ TEST_F(StageWorld, HasTheOtherDevicesOfARobotOrNotesThem) {
   worldOf("position ( drive \"car\" ptz ( ) ctrl \"fasr\" )");
   EXPECT_EQ(translated_.notes,
             (std::vector<std::string>{"w.world:1: 'ptz' on a robot has no equivalent",
-                                      "w.world:1: drive \"car\" is driven as differential",
                                       "w.world:1: ctrl \"fasr\" is left out, because it is a library of Stage"}));
+}
+
+TEST_F(StageWorld, HasTheDriveOfARobot) {
+  EXPECT_EQ(typeText("position ( )").find("<drive"), std::string::npos);
+  EXPECT_NE(typeText(R"(position ( drive "omni" velocity_bounds [-1 1 -0.4 0.3 0 0 -90 90] ))")
+                .find(R"(<drive type="omni" lateral_max_mps="0.4"/>)"),
+            std::string::npos);
+  EXPECT_NE(typeText(R"(position ( drive "car" wheelbase 0.6 ))")
+                .find(R"(<drive type="car" wheelbase_m="0.6" steering_max_deg="45"/>)"),
+            std::string::npos);
+  worldOf(R"(position ( drive "rocket" ))");
+  EXPECT_EQ(translated_.notes, std::vector<std::string>{"w.world:1: drive \"rocket\" is driven as differential"});
 }
 
 TEST_F(StageWorld, TakesTheFirstDefinitionTheLastValueAndLateMacros) {

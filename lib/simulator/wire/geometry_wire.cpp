@@ -53,6 +53,10 @@ void encode(const State& state, internal::ReplicaState& out) {
     robot.set_phi_rad(state.world_from_robot[i].phi);
     robot.set_speed_mps(state.speed_mps[i]);
     robot.set_turn_radps(state.turn_radps[i]);
+    if (!state.drives.empty()) {
+      robot.set_lateral_mps(state.drives[i].lateral_mps);
+      robot.set_steering_rad(state.drives[i].steering_rad);
+    }
     robot.set_activity(encode(state.activity[i]));
     encode(state.commands[i], *robot.mutable_command());
   }
@@ -75,6 +79,9 @@ void decodeInto(const internal::ReplicaState& in, State& state) {
                                  checkedFinite(robot.phi_rad())};
     state.speed_mps[i] = checkedFinite(robot.speed_mps());
     state.turn_radps[i] = checkedFinite(robot.turn_radps());
+    if (!state.drives.empty()) {
+      state.drives[i] = {checkedFinite(robot.lateral_mps()), checkedFinite(robot.steering_rad())};
+    }
     state.activity[i] = *activity;
     state.commands[i] = decode(robot.command(), static_cast<std::uint32_t>(i));
   }

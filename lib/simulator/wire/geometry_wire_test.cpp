@@ -163,7 +163,7 @@ TEST(GeometryWire, RoundTripsTheMotionOfAllRobots) {
 TEST(GeometryWire, RoundTripsCommands) {
   const auto environment = maze();
   internal::Task task;
-  const Command command{0.5, -0.25, 0, Activity::active, true};
+  const Command command{.speed_mps = 0.5, .turn_radps = -0.25, .by_driver = true, .led_color = 0x102030};
   addCommand(1, command, task);
   putCommands(task, *environment);
   EXPECT_EQ(environment->state().commands[1], command);

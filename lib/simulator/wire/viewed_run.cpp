@@ -7,6 +7,7 @@
 
 #include "base/error_list.h"
 #include "environment/environment.h"
+#include "hardware/led_color.h"
 #include "net/robot_wire.h"
 #include "robots/added_robot.h"
 #include "wire/world_wire.h"
@@ -27,6 +28,7 @@ void decodeRobot(const v1::RobotView& in, RobotSnapshot& out) {
   out.world_from_robot = {in.x_m(), in.y_m(), in.phi_rad()};
   out.laser_pan_rad = in.laser_pan_rad();
   out.stalled = in.stalled();
+  out.led_color = in.led_color() & kLedColorMax;
   out.activity = *activity;
 }
 
@@ -36,7 +38,7 @@ void add(const Readings& readings, std::size_t robot, std::optional<std::uint64_
   encode(readings, *view.mutable_readings(), sent_step);
   sent_step = readings.time.step;
   for (auto& measurement : *view.mutable_readings()->mutable_measurements()) {
-    if (!measurement.jpeg().empty()) measurement.Clear();
+    if (!measurement.jpeg().empty() || !measurement.raw_picture().empty()) measurement.Clear();
   }
 }
 
@@ -171,6 +173,7 @@ void encode(const RobotSnapshot& snapshot, std::size_t robot, v1::RobotView& out
   out.set_laser_pan_rad(snapshot.laser_pan_rad);
   out.set_stalled(snapshot.stalled);
   out.set_activity(encode(snapshot.activity));
+  out.set_led_color(snapshot.led_color);
 }
 
 void encode(const std::vector<Readings>& readings, const ReadingsSelection& selection, SentSteps& sent_steps,

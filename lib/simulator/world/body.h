@@ -36,13 +36,31 @@ struct Body {
   std::array<float, 3> color{0.5f, 0.5f, 0.5f};  ///< red, green, blue, each in [0, 1]
   double heat_celsius = 0;                       ///< the file's `hot`; 0 gives off no heat
   double reflectivity = kReflectivity;           ///< share of a laser's light that it returns, [0, 1]
+  double light_cd = 0;                           ///< luminous intensity in all directions [cd]; 0: no light
+  double fiducial = 0;  ///< number of the mark that fiducial sensors read on it, whole; 0: it has none
   bool operator==(const Body&) const = default;
 
   Solid solid() const;
   /// Radius [m] of the smallest disc about the centre that covers it in plan.
   double coveringRadius() const;
   HeightSpan heights() const { return {center_z_m - height_m / 2, center_z_m + height_m / 2}; }
+  /// Whether it is no obstacle but part of the floor, whose colour ground sensors read: nothing of it is above 0.
+  bool isFloor() const { return heights().z_max_m <= 0; }
 };
+
+/// A number that a body may have, and which most do not have. Reading, writing, digest, interventions and the command
+/// line follow from the table.
+struct BodyProperty {
+  const char* name;  ///< in files: <light>
+  double Body::*value;
+  double max;  ///< the least is 0, its default
+  bool is_whole;
+  const char* unit;  ///< of an option of the command line
+  const char* help;
+};
+inline constexpr std::array kBodyProperties{
+    BodyProperty{"light", &Body::light_cd, 1e6, false, "CANDELA", "luminous intensity; 0 gives off none"},
+    BodyProperty{"fiducial", &Body::fiducial, 65535, true, "NUMBER", "of its fiducial mark; 0 for none"}};
 
 /// How an object moves that robots push (doc/moving_objects.md). It stands with its whole base on the floor.
 struct Movable {

@@ -26,6 +26,13 @@ std::optional<XmlReader> solidIn(XmlReader& owner) {
   return cylinder ? cylinder : cube;
 }
 
+double readProperty(XmlReader& reader, const BodyProperty& property, double default_value) {
+  const double value = reader.number(property.name, {0, property.max}, default_value);
+  if (!property.is_whole || value == std::floor(value)) return value;
+  reader.errorAt(property.name, "is no whole number; write one");
+  return default_value;
+}
+
 Body readBody(XmlReader& solid, double unit_m, bool has_place) {
   const auto length = [&](const char* tag, Bounds bounds) { return solid.length(tag, bounds, unit_m); };
   Body body;
@@ -41,6 +48,7 @@ Body readBody(XmlReader& solid, double unit_m, bool has_place) {
   if (const auto color = readColor(solid)) body.color = *color;
   body.heat_celsius = solid.number("hot", Bounds::notNegative(), 0);
   body.reflectivity = solid.number("reflectivity", {0, 1}, kReflectivity);
+  for (const BodyProperty& property : kBodyProperties) body.*property.value = readProperty(solid, property, 0);
   return body;
 }
 
@@ -198,6 +206,9 @@ XmlElement& writeBody(const std::string& name, const Body& body, double unit_m, 
   element.add("color", colorText(body.color));
   element.add("hot", toText(body.heat_celsius));
   if (body.reflectivity != kReflectivity) element.add("reflectivity", toText(body.reflectivity));
+  for (const BodyProperty& property : kBodyProperties) {
+    if (body.*property.value != 0) element.add(property.name, toText(body.*property.value));
+  }
   return element;
 }
 

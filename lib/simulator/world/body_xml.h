@@ -14,6 +14,8 @@ namespace robosim {
 
 /// The <cylinder> or <cube> inside an element; nullopt if there is none.
 std::optional<XmlReader> solidIn(XmlReader& owner);
+/// Reads a property of a body; the default when it is absent.
+double readProperty(XmlReader& reader, const BodyProperty& property, double default_value);
 /// Reads the settings of a <cylinder> or <cube>, except its name, how it moves.
 /// @param has_place false: its place is given elsewhere
 Body readBody(XmlReader& solid, double unit_m, bool has_place);

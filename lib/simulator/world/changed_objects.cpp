@@ -31,6 +31,9 @@ struct ObjectChange {
     if (change.heat_celsius) body.heat_celsius = *change.heat_celsius;
     if (change.color) body.color = *change.color;
     if (change.reflectivity) body.reflectivity = *change.reflectivity;
+    for (std::size_t i = 0; i < kBodyProperties.size(); ++i) {
+      if (change.properties[i]) body.*kBodyProperties[i].value = *change.properties[i];
+    }
     if (change.height_m) {
       body.center_z_m += (*change.height_m - body.height_m) / 2;
       body.height_m = *change.height_m;

@@ -1,11 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <mrpt/math/TPose2D.h>
 
 #include "geometry/shapes/solid.h"
+#include "world/geo_position.h"
 #include "world/occupancy_grid.h"
 
 namespace robosim {
@@ -34,6 +36,7 @@ struct FloorPlan {
   std::vector<CellRectangle> unknown;   ///< all unknown cells that are not taken for occupied, each in one rectangle
   std::vector<PlanBox> boxes;           ///< obstacles that are not given as cells
   std::vector<mrpt::math::TPose2D> starts;  ///< start poses given by the map, best first
+  std::optional<GeoPosition> origin;        ///< of the map's frame on the earth; its x axis points east
   std::vector<std::string> warnings;        ///< contents that are probably not intended, for the author of the map
   bool operator==(const FloorPlan&) const = default;
 

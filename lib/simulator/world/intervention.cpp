@@ -100,8 +100,15 @@ ChangeObject readChangeObject(XmlReader& reader, double unit_m) {
   change.color = readColor(reader);
   if (reader.has("height")) change.height_m = reader.length("height", Bounds::positive(), unit_m);
   if (reader.has("reflectivity")) change.reflectivity = reader.number("reflectivity", {0, 1});
+  for (std::size_t i = 0; i < kBodyProperties.size(); ++i) {
+    if (reader.has(kBodyProperties[i].name)) change.properties[i] = readProperty(reader, kBodyProperties[i], 0);
+  }
   if (change == ChangeObject{change.name}) {
-    reader.error("changes nothing; give hot, color, height or reflectivity");
+    std::string properties = "hot, color, height, reflectivity";
+    for (const BodyProperty& property : kBodyProperties) {
+      properties += std::string(&property == &kBodyProperties.back() ? " or " : ", ") + property.name;
+    }
+    reader.error("changes nothing; give " + properties);
   }
   return change;
 }
@@ -113,6 +120,9 @@ void write(const ChangeObject& change, double unit_m, XmlElement& element) {
   if (change.color) add("color", colorText(*change.color));
   if (change.height_m) add("height", toText(*change.height_m, unit_m));
   if (change.reflectivity) add("reflectivity", toText(*change.reflectivity));
+  for (std::size_t i = 0; i < kBodyProperties.size(); ++i) {
+    if (change.properties[i]) add(kBodyProperties[i].name, toText(*change.properties[i]));
+  }
 }
 
 ChangeActivity readChangeActivity(XmlReader& reader, double) {

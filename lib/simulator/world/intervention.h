@@ -52,14 +52,15 @@ struct RemoveBody {
   bool operator==(const RemoveBody&) const = default;
 };
 
-/// <change name hot color height reflectivity/>: changes the properties of an object that are given. Its underside
-/// stays where it is.
+/// <change name hot color height reflectivity light fiducial/>: changes the properties of an object that are given. Its
+/// underside stays where it is.
 struct ChangeObject {
   std::string name;
-  std::optional<double> heat_celsius = {};         ///< at least 0; 0 gives off no heat
-  std::optional<std::array<float, 3>> color = {};  ///< red, green, blue, each in [0, 1]
-  std::optional<double> height_m = {};             ///< > 0
-  std::optional<double> reflectivity = {};         ///< [0, 1]
+  std::optional<double> heat_celsius = {};                                    ///< at least 0; 0 gives off no heat
+  std::optional<std::array<float, 3>> color = {};                             ///< red, green, blue, each in [0, 1]
+  std::optional<double> height_m = {};                                        ///< > 0
+  std::optional<double> reflectivity = {};                                    ///< [0, 1]
+  std::array<std::optional<double>, kBodyProperties.size()> properties = {};  ///< those of kBodyProperties
   bool operator==(const ChangeObject&) const = default;
 };
 

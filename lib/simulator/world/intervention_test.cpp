@@ -25,6 +25,8 @@ std::vector<Change> oneOfEachKind() {
           RemoveBody{"a"},
           ChangeObject{"a", 20, {{1, 0.5f, 0.1f}}, 1.25, 0.9},
           ChangeObject{.name = "a", .reflectivity = 0},
+          ChangeObject{.name = "a", .properties = {0.0, 7.0}},
+          ChangeObject{.name = "a", .properties = {1.0 / 3, {}}},
           ChangeActivity{"r1", Activity::found},
           ChangeRadio{radio},
           ChangeRadio{},

@@ -19,16 +19,20 @@ MapFormat recognizeMapFormat(const std::filesystem::path& file) {
   std::string name = file.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   const std::pair<const char*, MapFormat> formats[] = {
-      {".gridmap", MapFormat::gridmap}, {".gridmap.gz", MapFormat::gridmap}, {".yaml", MapFormat::ros_yaml},
-      {".yml", MapFormat::ros_yaml},    {".png", MapFormat::picture},        {".pgm", MapFormat::picture},
-      {".ppm", MapFormat::picture},     {".pbm", MapFormat::picture},        {".jpg", MapFormat::picture},
-      {".jpeg", MapFormat::picture},    {".bmp", MapFormat::picture},        {".map", MapFormat::activmedia}};
+      {".gridmap", MapFormat::gridmap},      {".gridmap.gz", MapFormat::gridmap},
+      {".simplemap", MapFormat::simple_map}, {".simplemap.gz", MapFormat::simple_map},
+      {".bt", MapFormat::octomap},           {".ot", MapFormat::octomap},
+      {".yaml", MapFormat::ros_yaml},        {".yml", MapFormat::ros_yaml},
+      {".png", MapFormat::picture},          {".pgm", MapFormat::picture},
+      {".ppm", MapFormat::picture},          {".pbm", MapFormat::picture},
+      {".jpg", MapFormat::picture},          {".jpeg", MapFormat::picture},
+      {".bmp", MapFormat::picture},          {".map", MapFormat::activmedia}};
   for (const auto& [ending, format] : formats) {
     if (name.ends_with(ending)) return format;
   }
-  throw ConfigError(
-      file.string() +
-      ": is not a map by its name; maps end in .gridmap, .yaml (of ROS), .png, .jpg, .bmp, .pgm, .ppm, .pbm or .map");
+  throw ConfigError(file.string() +
+                    ": is not a map by its name; maps end in .gridmap, .simplemap, .bt, .ot, .yaml (of ROS), .png, "
+                    ".jpg, .bmp, .pgm, .ppm, .pbm or .map");
 }
 
 bool isMapFile(const std::filesystem::path& file) {

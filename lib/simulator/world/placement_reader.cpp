@@ -55,6 +55,7 @@ RobotPlacement PlacementReader::readRobot(XmlReader& robot, Place place) {
     for (const auto& sensor : sensors->all()) placement.sensors.push_back(sensor.element());
     sensors->finish();
   }
+  if (auto drive = robot.child("drive")) placement.drive = drive->element();
   const auto& children = robot.element().children;
   const auto controller = std::find_if(children.begin(), children.end(),
                                        [](const XmlElement& child) { return child.name == "controller"; });

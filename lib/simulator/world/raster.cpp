@@ -159,7 +159,7 @@ HeightSpan heightsOfAll(const World& world) {
 std::optional<MapExtent> extentOfMap(const World& world) {
   for (const auto& map : world.maps) {
     const mrpt::math::TPose2D corner = portable::compose(map.world_from_map, map.plan.map_from_grid);
-    if (map.plan.columns == 0 || corner.phi != 0) continue;
+    if (map.plan.columns == 0 || corner.phi != 0 || map.isFloor()) continue;
     return MapExtent{.cell_m = map.plan.cell_m, .heights = {}, .origin = {corner.x, corner.y}};
   }
   return std::nullopt;

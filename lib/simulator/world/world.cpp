@@ -21,6 +21,7 @@ std::string World::fileOf(const SourceLine& line, const std::string& world_file)
 }
 
 std::vector<Solid> unknownSolids(const WorldMap& map) {
+  if (map.isFloor()) return {};
   FloorPlan plan = map.plan;
   plan.boxes.clear();
   plan.occupied = std::move(plan.unknown);
@@ -39,7 +40,9 @@ std::vector<Solid> solidsOf(const std::vector<WorldObject>& objects, const std::
   for (const auto& object : objects) {
     if (select(object)) solids.push_back(object.body.solid());
   }
-  for (const auto& map : maps) addSolids(map.plan, map.world_from_map, map.heights(), solids);
+  for (const auto& map : maps) {
+    if (!map.isFloor()) addSolids(map.plan, map.world_from_map, map.heights(), solids);
+  }
   return solids;
 }
 

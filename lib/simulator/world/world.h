@@ -12,23 +12,25 @@
 #include "world/body.h"
 #include "world/communication.h"
 #include "world/floor_plan.h"
+#include "world/georeference.h"
 #include "world/intervention.h"
 #include "world/map_reader.h"
 
 namespace robosim {
 
-/// A map placed in the world; its occupied cells become walls.
+/// A map placed in the world; its occupied cells become walls, or, without height, a picture on the floor.
 struct WorldMap {
   std::string file;    ///< path relative to the world file's folder
   MapReading reading;  ///< how the file is read
   mrpt::math::TPose2D world_from_map;
-  double height_m = 1;                           ///< of the walls, > 0
+  double height_m = 1;                           ///< of the walls; 0: they are painted on the floor
   std::array<float, 3> color{0.5f, 0.5f, 0.5f};  ///< red, green, blue, each in [0, 1]
   FloorPlan plan;                                ///< contents of the file
   SourceLine line;
   bool operator==(const WorldMap&) const = default;
 
   HeightSpan heights() const { return {0, height_m}; }
+  bool isFloor() const { return height_m == 0; }
 };
 
 /// A robot as placed by the world file. The module `robots` interprets its model and its sensor elements.
@@ -39,8 +41,9 @@ struct RobotPlacement {
   std::optional<Body> body;  ///< from <cylinder> or <cube>; absent: the model's. Its pose is world_from_robot
   std::optional<std::array<float, 3>> color;  ///< instead of the model's, when `body` is absent
   std::vector<XmlElement>
-      sensors;             ///< 2005's <sensor> elements and those inside <sensors>, in file units, not yet interpreted
-  std::string controller;  ///< as TypeChoice::text(), not yet checked; empty: the program's default
+      sensors;  ///< 2005's <sensor> elements and those inside <sensors>, in file units, not yet interpreted
+  std::optional<XmlElement> drive;  ///< instead of the model's; not yet interpreted
+  std::string controller;           ///< as TypeChoice::text(), not yet checked; empty: the program's default
   SourceLine controller_line;
   std::string neighbour;  ///< empty: none
   SourceLine line;
@@ -101,6 +104,7 @@ struct World {
   /// Minimum distance of random starts from the gold, from a robot's centre to the gold's outline; nullopt: that of
   /// RandomStarts.
   std::optional<double> start_distance_m;
+  std::optional<GeoReference> georeference;  ///< of the file; georeferenceOf() is also that of a map
   std::vector<WorldObject> objects;
   std::vector<WorldMap> maps;
   std::vector<RobotPlacement> robots;

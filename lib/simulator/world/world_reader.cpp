@@ -50,6 +50,7 @@ class WorldReader {
     scatters_.checkNames();
     if (auto communication = root_.child("communication"))
       world_.communication = readCommunication(*communication, world_.unit_m);
+    if (auto reference = root_.child("georeference")) world_.georeference = readGeoReference(*reference, world_.unit_m);
     readTimeline();
     root_.finish();
     placements_.checkNeighbours();
@@ -121,7 +122,7 @@ class WorldReader {
     }
     const auto place = [&](const char* tag) { return reader.length(tag, Bounds::any(), world_.unit_m, 0); };
     map.world_from_map = {place("x"), place("y"), reader.number("direction", Bounds::any(), 0)};
-    map.height_m = reader.length("height", Bounds::positive(), world_.unit_m, map.height_m);
+    map.height_m = reader.length("height", Bounds::notNegative(), world_.unit_m, map.height_m);
     if (const auto color = readColor(reader)) map.color = *color;
     try {
       if (errors_.count() == faults) readMapSettings(reader, recognizeMapFormat(map.file), map.reading);
@@ -164,18 +165,30 @@ class WorldReader {
     if (format == MapFormat::activmedia) return;
     reading.unknown_is_occupied =
         reader.choice<bool>("unknown", {{"free", false}, {"occupied", true}}, reading.unknown_is_occupied);
-    if (format != MapFormat::gridmap) {
-      readMapServer(reader, format, reading);
-    }
+    if (format == MapFormat::octomap) return readSlice(reader, reading.slice);
+    const bool is_of_mrpt = format == MapFormat::gridmap || format == MapFormat::simple_map;
+    if (!is_of_mrpt) readMapServer(reader, format, reading);
     if (format == MapFormat::ros_yaml) return;
     auto& thresholds = reading.thresholds;
+    if (format == MapFormat::simple_map) thresholds = kSimpleMapThresholds;
     thresholds.occupied = reader.number("threshold", {0, 1}, thresholds.occupied);
     thresholds.free = reading.is_of_stage ? thresholds.occupied : std::min(thresholds.free, thresholds.occupied);
     if (format == MapFormat::gridmap) return;
     const Bounds side = Bounds::positive(kCellMax_m / world_.unit_m);
+    if (format == MapFormat::simple_map) {
+      reading.pixel_m = reader.length("resolution", side, world_.unit_m, kSimpleMapCell_m);
+      return;
+    }
     reading.pixel_m = reader.length("resolution", side, world_.unit_m);
     if (reader.has("resolution_y")) reading.pixel_y_m = reader.length("resolution_y", side, world_.unit_m);
     reading.negate = reader.flag("negate", reading.negate);
+  }
+
+  void readSlice(XmlReader& reader, HeightSpan& slice) {
+    slice.z_min_m = reader.length("z_min", Bounds::any(), world_.unit_m, slice.z_min_m);
+    slice.z_max_m = reader.length("z_max", Bounds::any(), world_.unit_m, slice.z_max_m);
+    if (slice.z_min_m >= slice.z_max_m)
+      reader.errorAt("z_max", "is not above z_min, " + toText(slice.z_min_m) + " m; fix one of them");
   }
 
   /// <at time="20"> with changes, in seconds of simulated time.
@@ -263,6 +276,8 @@ void requireNameOfKind(const std::filesystem::path& file) {
     const char* ending;
   };
   const Ending endings[] = {{FileKind::gridmap, MapFormat::gridmap, ".gridmap or .gridmap.gz"},
+                            {FileKind::simple_map, MapFormat::simple_map, ".simplemap"},
+                            {FileKind::octomap, MapFormat::octomap, ".bt or .ot"},
                             {FileKind::ros_yaml, MapFormat::ros_yaml, ".yaml"},
                             {FileKind::picture, MapFormat::picture, ".png, .pgm, .ppm or .pbm"},
                             {FileKind::jpeg, MapFormat::picture, ".jpg or .jpeg"},
@@ -272,7 +287,8 @@ void requireNameOfKind(const std::filesystem::path& file) {
                             {FileKind::world, std::nullopt, ".xml"},
                             {FileKind::robot_type, std::nullopt, ".xml"},
                             {FileKind::robot_list, std::nullopt, ".xml"},
-                            {FileKind::rawlog, std::nullopt, ".rawlog"}};
+                            {FileKind::rawlog, std::nullopt, ".rawlog"},
+                            {FileKind::carmen_log, std::nullopt, ".log or .clf"}};
   const FileKind kind = kindOfFile(file);
   for (const auto& one : endings) {
     if (kind != one.kind) continue;

@@ -159,22 +159,36 @@ TEST(WorldReader, AcceptsABodyBesidesAModel) {
   EXPECT_EQ(std::get<Cylinder>(world.robots[0].body->shape), Cylinder{1});
 }
 
+TEST(WorldReader, ReadsLightsMarksAndAreasOfTheFloor) {
+  const World world = parsed(worldOf({pillar("a", "1", "<light>12.5</light><fiducial>7</fiducial>"),
+                                      "<primitive><cylinder><name>b</name><x>1</x><y>2</y><z>-2</z><radius>1</radius>"
+                                      "<height>4</height></cylinder></primitive>"}));
+  const Body& body = world.objects[0].body;
+  EXPECT_EQ(body.light_cd, 12.5);
+  EXPECT_EQ(body.fiducial, 7);
+  EXPECT_FALSE(body.isFloor());
+  EXPECT_TRUE(world.objects[1].body.isFloor());
+  EXPECT_EQ(faults(worldOf({pillar("p", "1", "<fiducial>1.5</fiducial>")})),
+            Lines{"a.xml:2: <fiducial>1.5</fiducial>: is no whole number; write one"});
+  EXPECT_EQ(faults(worldOf({pillar("p", "1", "<light>-1</light>")})).size(), 1u);
+}
+
 TEST(WorldReader, RejectsUnknownTags) {
   EXPECT_EQ(faults("<worlds/>"),
             Lines{"a.xml:1: <worlds>: is not a world; the first element of a world file is <world>"});
   EXPECT_EQ(faults(worldOf({pillar("p", "1", "<colour>1 0 0</colour>")})),
             Lines{"a.xml:2: <colour>: unknown tag in <cylinder>; accepted here are: color, conveyor, direction, door, "
-                  "height, hot, "
+                  "fiducial, height, hot, light, "
                   "movable, name, radius, reflectivity, stationary, walker, x, y, z"});
   EXPECT_EQ(faults(worldOf({"<primitve/>"})),
             (Lines{"a.xml:2: <shape>: contains neither a <primitive> nor a <robot>; add one",
                    "a.xml:2: <primitve>: unknown tag in <shape>; accepted here are: primitive, robot"}));
-  EXPECT_EQ(
-      faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
-      (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: include, map, object, scatter, "
-             "size, type",
-             "a.xml:1: <world>: unknown attribute size=\"3\"; accepted here are: at, communication, surface, unit_m, "
-             "win_distance"}));
+  EXPECT_EQ(faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
+            (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: include, map, object, scatter, "
+                   "size, type",
+                   "a.xml:1: <world>: unknown attribute size=\"3\"; accepted here are: at, communication, "
+                   "georeference, surface, unit_m, "
+                   "win_distance"}));
 }
 
 TEST(WorldReader, RejectsMissingAndMalformedValues) {
@@ -300,7 +314,7 @@ TEST(WorldReader, ReportsAllFaultsInTheFilesOrder) {
   EXPECT_EQ(faults(worldOf({pillar("p", "-1"), scout("A", "<modell/>"), pillar("p", "x")})),
             (Lines{"a.xml:2: <radius>-1</radius>: must be above 0; write a number there",
                    "a.xml:3: <modell>: unknown tag in <robot>; accepted here are: color, controller, cube, cylinder, "
-                   "direction, model, name, neighbour, sensor, sensors, x, y",
+                   "direction, drive, model, name, neighbour, sensor, sensors, x, y",
                    "a.xml:4: <name>p</name>: is taken already, in line 2; give each object and robot a name of its own",
                    "a.xml:4: <radius>x</radius>: is not a number; write a number there"}));
 }

@@ -39,6 +39,7 @@ class WorldWriter {
     for (const auto& scatter : world_.scatters) addScatter(surface.add("scatter"), scatter);
     if (world_.communication != Communication{})
       writeCommunication(world_.communication, world_.unit_m, root.add("communication"));
+    if (world_.georeference) writeGeoReference(*world_.georeference, world_.unit_m, root.add("georeference"));
     for (const auto& timed : world_.timeline) {
       XmlElement& at = root.add("at");
       at.attributes.emplace_back("time", toText(timed.time_s));
@@ -86,12 +87,18 @@ class WorldWriter {
     const MapFormat format = recognizeMapFormat(map.file);
     if (format == MapFormat::activmedia) return;
     element.add("unknown", map.reading.unknown_is_occupied ? "occupied" : "free");
+    if (format == MapFormat::octomap) {
+      addLength(element, "z_min", map.reading.slice.z_min_m);
+      addLength(element, "z_max", map.reading.slice.z_max_m);
+      return;
+    }
     if (map.reading.is_of_ros1) element.add("map_server", "ros1");
     if (map.reading.is_of_stage) element.add("map_server", "stage");
     if (format == MapFormat::ros_yaml) return;
     element.add("threshold", toText(map.reading.thresholds.occupied));
     if (format == MapFormat::gridmap) return;
     addLength(element, "resolution", map.reading.pixel_m);
+    if (format == MapFormat::simple_map) return;
     if (map.reading.pixel_y_m > 0) addLength(element, "resolution_y", map.reading.pixel_y_m);
     element.add("negate", map.reading.negate ? "1" : "0");
   }
@@ -108,6 +115,7 @@ class WorldWriter {
       if (place == Place::given) writePose(robot.world_from_robot, world_.unit_m, element);
       if (robot.color) element.add("color", colorText(*robot.color));
     }
+    if (robot.drive) element.children.push_back(*robot.drive);
     addSensors(element, robot.sensors);
     if (!robot.controller.empty()) writeController(robot.controller, element);
     if (!robot.neighbour.empty()) element.add("neighbour", robot.neighbour);

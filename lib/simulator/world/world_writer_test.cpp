@@ -118,6 +118,8 @@ class WorldMaker {
     body.color = color();
     if (maybe()) body.heat_celsius = size(100);
     if (maybe()) body.reflectivity = rng_.uniform();
+    if (maybe()) body.light_cd = size(100);
+    if (maybe()) body.fiducial = 1 + rng_.below(65535);
     return body;
   }
 

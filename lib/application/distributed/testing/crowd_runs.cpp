@@ -22,13 +22,19 @@ class Dasher : public Controller {
     if (!robot.inbox().empty()) turn_radps_ = -turn_radps_;
     double nearest_m = 10;
     for (const auto& echo : robot.laser()) nearest_m = std::min<double>(nearest_m, echo.range_m);
-    robot.drive(nearest_m < 0.4 ? -1 : 3, nearest_m < 0.8 ? 3 : turn_radps_);
+    const bool is_omni = robot.info().drive.kind == DriveKind::omni;
+    robot.drive(nearest_m < 0.4 ? -1 : 3, nearest_m < 0.8 ? 3 : turn_radps_, is_omni ? turn_radps_ : 0);
     const std::uint32_t chance = rng_.below(1000);
     const auto other = rng_.below(static_cast<std::uint32_t>(robot.robots().size()));
     if (chance < 5) robot.send(robot.robots()[other], "turn in step " + std::to_string(step));
     if (chance == 7) robot.broadcast("turn in step " + std::to_string(step));
     if (chance == 5) robot.checkWin();
     if (chance == 6) robot.halt();
+    if (chance >= 900) robot.setLeds({chance % 2 == 0 ? 1.0f : 0.0f, 0.2f, 0.8f});
+    if (robot.cameraHead() && chance >= 800) {
+      robot.aimCamera((static_cast<int>(chance) - 900) / 50.0, 0.3);
+      robot.zoomCamera(1 + chance % 7);
+    }
   }
 
  private:

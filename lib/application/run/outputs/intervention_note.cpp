@@ -11,13 +11,6 @@ std::string dumped(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string noteOfAll(const ChangedObjects& changed) {
-  nlohmann::ordered_json json{{"robosim_objects", 1}, {"objects", nlohmann::ordered_json::array()}};
-  const std::vector<WorldObject> none;
-  for (const auto& object : changed.orThose(none)) json["objects"].push_back(changeText(AddObject{object}));
-  return dumped(json);
-}
-
 /// nullopt if the comment is no note of an intervention. @throws ConfigError for one whose change is invalid
 std::optional<InterventionNote> noteIn(const nlohmann::json& json) {
   if (!json.is_object() || !json.contains("robosim_intervention")) return std::nullopt;
@@ -44,7 +37,7 @@ std::optional<ChangedObjects> movedBy(const nlohmann::json& json, const std::vec
   }
 }
 
-/// The objects in a comment of noteOfAll(); nullopt if it is none. @throws ConfigError for an invalid object
+/// The objects in a comment of allObjectsNote(); nullopt if it is none. @throws ConfigError for an invalid object
 std::optional<ChangedObjects> objectsIn(const nlohmann::json& json) {
   if (!json.is_object() || !json.contains("robosim_objects")) return std::nullopt;
   std::vector<WorldObject> objects;
@@ -78,7 +71,7 @@ std::vector<std::string> notesBefore(const State& state, std::uint64_t step, boo
   for (const AddRobot& robot : is_first ? state.additions.list() : std::span<const AddRobot>()) {
     notes.push_back(dumped(nlohmann::ordered_json{{"robosim_robot", 1}, {"added", changeText(robot)}}));
   }
-  if (is_first && state.objects.areChanged()) notes.push_back(noteOfAll(state.objects));
+  if (is_first && state.objects.areChanged()) notes.push_back(allObjectsNote(state.objects));
   return notes;
 }
 
@@ -95,10 +88,17 @@ std::optional<AddRobot> robotAddedBy(const std::string& text) {
   return robot ? std::optional(*robot) : std::nullopt;
 }
 
+std::string allObjectsNote(const ChangedObjects& changed) {
+  nlohmann::ordered_json json{{"robosim_objects", 1}, {"objects", nlohmann::ordered_json::array()}};
+  const std::vector<WorldObject> none;
+  for (const auto& object : changed.orThose(none)) json["objects"].push_back(changeText(AddObject{object}));
+  return dumped(json);
+}
+
 std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now,
                       const std::optional<std::vector<std::uint32_t>>& moved) {
   if (!now.areChanged()) return {};
-  if (!moved || !recorded.areChanged()) return noteOfAll(now);
+  if (!moved || !recorded.areChanged()) return allObjectsNote(now);
   if (moved->empty()) return {};
   nlohmann::ordered_json json{{"robosim_moved", 1}, {"places", nlohmann::ordered_json::array()}};
   const std::vector<WorldObject> none;
@@ -109,6 +109,8 @@ std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now,
   }
   return dumped(json);
 }
+
+bool isNoteOfAllObjects(const std::string& text) { return text.starts_with("{\"robosim_objects\""); }
 
 std::optional<ChangedObjects> objectsAfter(const std::string& text, const std::vector<WorldObject>& before) {
   const auto json = nlohmann::json::parse(text, nullptr, false);

@@ -27,11 +27,15 @@ std::vector<std::string> notesBefore(const State& state, std::uint64_t step, boo
 /// The robot that a comment of a recording adds: by an intervention, or, at the beginning of a recording, by one before
 /// it; nullopt for none. @throws ConfigError for an invalid change
 std::optional<AddRobot> robotAddedBy(const std::string& text);
+/// The note of all objects. @pre they are changed
+std::string allObjectsNote(const ChangedObjects& objects);
 /// The note of objects that have moved since a recorded step: their places, or all objects if those were not recorded.
 /// Empty if none have.
 /// @param moved what movedBetween() has returned for them
 std::string movedNote(const ChangedObjects& recorded, const ChangedObjects& now,
                       const std::optional<std::vector<std::uint32_t>>& moved);
+/// Whether a comment of a recording is a list of all objects.
+bool isNoteOfAllObjects(const std::string& text);
 /// The objects after a comment of a recording, from those before: by interventions, by robots that have moved them, or
 /// by a list of all; nullopt for a comment that changes none. @throws ConfigError for an invalid change or object
 std::optional<ChangedObjects> objectsAfter(const std::string& text, const std::vector<WorldObject>& before);

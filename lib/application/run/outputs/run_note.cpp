@@ -114,7 +114,7 @@ std::optional<RunNote> RunNote::parse(const std::string& text) {
 
 RunNote RunNote::of(const std::string& rawlog) {
   RawlogReader reader(rawlog);
-  auto first = reader.isOfRos() ? nullptr : reader.next();
+  auto first = reader.isForeign() ? nullptr : reader.next();
   if (first && first->sensorLabel == kFromActions) first = reader.next();  // in format "sf"
   if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(first)) {
     if (auto note = parse(comment->text)) return *note;

@@ -8,10 +8,10 @@
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include "base/file_kind.h"
 #include "base/printable_text.h"
 #include "hardware/command.h"
 #include "rendering/plan.h"
-#include "run/json_text.h"
 #include "run/output_files.h"
 
 namespace robosim {
@@ -22,24 +22,30 @@ class RunOutputs::Tracks {
   explicit Tracks(std::size_t robots) : points_(robots) {}
 
   /// The path of an absent robot begins again when it comes back.
-  void add(std::span<const mrpt::math::TPose2D> world_from_robot, std::span<const Activity> activity) {
+  void add(double time_s, std::span<const mrpt::math::TPose2D> world_from_robot, std::span<const Activity> activity) {
     constexpr double kSpacing_m = 0.05;
     points_.resize(world_from_robot.size());
+    times_s_.resize(world_from_robot.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (activity[i] == Activity::absent) {
         points_[i].clear();
+        times_s_[i].clear();
         continue;
       }
       const mrpt::math::TPoint2D now(world_from_robot[i].x, world_from_robot[i].y);
-      if (points_[i].empty() || (now - points_[i].back()).norm() >= kSpacing_m) points_[i].push_back(now);
+      if (!points_[i].empty() && (now - points_[i].back()).norm() < kSpacing_m) continue;
+      points_[i].push_back(now);
+      times_s_[i].push_back(time_s);
     }
   }
 
   /// By robot, in order of time.
   const std::vector<std::vector<mrpt::math::TPoint2D>>& points() const { return points_; }
+  const std::vector<std::vector<double>>& times() const { return times_s_; }
 
  private:
   std::vector<std::vector<mrpt::math::TPoint2D>> points_;
+  std::vector<std::vector<double>> times_s_;
 };
 
 namespace {
@@ -53,34 +59,22 @@ std::vector<std::optional<mrpt::math::TPose2D>> presentPoses(const State& state)
   return poses;
 }
 
-/// Thrown when the picture cannot be written at the end; not bad input, because the path was checked at the start.
-void draw(const std::string& picture, const Environment& environment,
-          const std::vector<std::vector<mrpt::math::TPoint2D>>& tracks) {
+/// Throws when the picture cannot be written at the end; not bad input, because the path was checked at the start.
+/// @param drawn the paths
+void draw(const RunArguments& arguments, const Environment& environment, DrawnRun drawn) {
   try {
-    writePlan(picture, environment.presentWorld(), environment.fleet(), tracks, presentPoses(environment.state()));
+    ViewLayers layers = arguments.layers;
+    layers.only = arguments.only.flagsIn(environment.fleet(), RobotSelection::Unmatched::ignored);
+    const World world = environment.presentWorld();
+    drawn.world_from_robot = presentPoses(environment.state());
+    applyLayers(drawn, layers, world, environment.fleet());
+    writePlan(arguments.picture, world, environment.fleet(), drawn);
   } catch (const ConfigError& error) {
     throw std::runtime_error(error.what());
   }
 }
 
 }  // namespace
-
-WorldSource readRunSource(const RunArguments& arguments) {
-  WorldSource source = readWorldSource(arguments.world);
-  source.seed = arguments.run.environment.seed;
-  return withChanges(source, arguments.changes, arguments.run.environment.seed);
-}
-
-std::string whyNoAdditions(const RunArguments& arguments) {
-  if (arguments.record.empty() || arguments.rawlog_format != "sf") return {};
-  return "robots cannot be added to a run whose recording has a file for each robot; record observations "
-         "(--rawlog-format obs)";
-}
-
-bool RunArguments::timeIsUp(const SimTime& now) const {
-  // Tolerance of half a step against rounding of the limit.
-  return now.seconds() + now.period_s / 2 > time_s;
-}
 
 RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note)
     : arguments_(arguments) {
@@ -93,13 +87,15 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
         RecordingOptions{
             .file = arguments.record,
             .format = arguments.rawlog_format == "sf" ? RawlogFormat::sensory_frames : RawlogFormat::observations,
-            .images = arguments.record_images == "external" ? RawlogImages::external : RawlogImages::embedded},
+            .images = arguments.record_images == "external" ? RawlogImages::external : RawlogImages::embedded,
+            .distribution = arguments.distribution},
         std::move(robots), std::move(note), environment.model());
     if (!arguments.is_recorded_on_request) recording_->open();
     refuseOverwriting(inputs, recording_->files());  // format "sf" has a file per robot
   }
   if (arguments.picture.empty()) return;
   checkPlanFile(arguments.picture);
+  arguments.only.flagsIn(environment.fleet(), RobotSelection::Unmatched::refused);
   tracks_ = std::make_unique<Tracks>(environment.robotCount());
 }
 
@@ -111,7 +107,7 @@ void RunOutputs::observe(const Environment& environment) {
     recording_->follow(environment.fleet());
     recording_->write(state);
   }
-  if (tracks_) tracks_->add(state.world_from_robot, state.activity);
+  if (tracks_) tracks_->add(state.time.seconds(), state.world_from_robot, state.activity);
 }
 
 void RunOutputs::setRecording(bool on, const LocalRun& run) {
@@ -121,7 +117,7 @@ void RunOutputs::setRecording(bool on, const LocalRun& run) {
     recording_->follow(run.environment().fleet());
     recording_->openNext(run.environment().state());
   } else {
-    recording_->close(run.environment().state(), summaryOf(run, EndedBy::recording_stopped));
+    recording_->close(run.environment().state(), summaryOf(arguments_, run, EndedBy::recording_stopped));
   }
 }
 
@@ -129,19 +125,9 @@ void RunOutputs::keep(const Environment& environment) {
   if (recording_ && environment.time().step > 0) recording_->keep();
 }
 
-RunSummary RunOutputs::summaryOf(const LocalRun& run, EndedBy ended_by) const {
-  RunSummary summary = RunSummary::of(run);
-  summary.world = arguments_.world;
-  summary.seed = arguments_.run.environment.seed;
-  summary.ended_by = ended_by;
-  summary.depends_on_seed |= arguments_.changes.has_random_starts || arguments_.changes.random_robots > 0;
-  summary.depends_on_seed |= run.environment().world().origin.is_scattered;
-  return summary;
-}
-
 void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late,
                         const std::optional<RunReport>& report) {
-  RunSummary summary = summaryOf(run, ended_by);
+  RunSummary summary = summaryOf(arguments_, run, ended_by);
   summary.wall_s = wall_s;
   summary.late = late;
   summary.report = report;
@@ -150,22 +136,20 @@ void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, st
   bool is_drawn = false;
   try {
     if (recording_) recording_->finish(run.environment().state(), summary);
-    if (tracks_) draw(arguments_.picture, run.environment(), tracks_->points());
+    if (tracks_) {
+      draw(arguments_, run.environment(), {.paths = tracks_->points(), .path_times_s = tracks_->times()});
+    }
     is_drawn = tracks_ != nullptr;
   } catch (const std::exception&) {
     failure = std::current_exception();
   }
-  if (arguments_.json) {
-    std::cout << jsonText(summary.json()) << std::endl;
-  } else {
-    std::cout << summary.text();
-    if (recording_) {
-      for (const auto& file : recording_->files()) {
-        std::cout << (isMcapName(file) ? "mcap      " : "rawlog    ") << printableText(file.string()) << '\n';
-      }
+  printSummary(summary, arguments_);
+  if (!arguments_.json && recording_) {
+    for (const auto& file : recording_->files()) {
+      std::cout << (isMcapName(file) ? "mcap      " : "rawlog    ") << printableText(file.string()) << '\n';
     }
-    if (is_drawn) std::cout << "picture   " << printableText(arguments_.picture) << std::endl;
   }
+  if (!arguments_.json && is_drawn) std::cout << "picture   " << printableText(arguments_.picture) << std::endl;
   std::cout.flush();
   if (failure) std::rethrow_exception(failure);
 }

@@ -4,37 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "environment/world_changes.h"
 #include "run/local_run.h"
 #include "run/outputs/run_note.h"
 #include "run/outputs/run_recording.h"
+#include "run/run_arguments.h"
 #include "run/run_summary.h"
 
 namespace robosim {
-
-/// Settings of a run, local or served.
-struct RunArguments {
-  std::string world;
-  WorldChanges changes;
-  RunOptions run;
-  double time_s = 1800;
-  std::string speed = "max";
-  std::string record;
-  bool is_recorded_on_request = false;  ///< the recording is off until it is requested
-  std::string rawlog_format = "obs";
-  std::string record_images = "embedded";
-  std::string picture;
-  bool json = false;
-
-  /// Whether the time limit is reached.
-  bool timeIsUp(const SimTime& now) const;
-};
-
-/// Why no robot can be added during a run with these outputs; empty if robots can be added.
-std::string whyNoAdditions(const RunArguments& arguments);
-
-/// The world given by the arguments, including their changes. @throws ConfigError
-WorldSource readRunSource(const RunArguments& arguments);
 
 /// Output files of a run: rawlog, picture and summary, according to the arguments.
 class RunOutputs {
@@ -62,8 +38,6 @@ class RunOutputs {
 
  private:
   class Tracks;
-
-  RunSummary summaryOf(const LocalRun& run, EndedBy ended_by) const;
 
   const RunArguments& arguments_;
   std::vector<Command> commands_;  ///< of the current step

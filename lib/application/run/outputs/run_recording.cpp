@@ -9,6 +9,13 @@
 #include "world/changed_objects.h"
 
 namespace robosim {
+namespace {
+
+/// After so many notes of moved objects, or as many as there are objects, all are listed: a view that opens the
+/// recording in its middle reads those since the last list.
+constexpr std::size_t kMovedNotesPerList = 100;
+
+}  // namespace
 
 RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note,
                            std::shared_ptr<const Model> model)
@@ -40,10 +47,12 @@ void RunRecording::openNext(const State& state) {
 void RunRecording::open(const std::filesystem::path& file, const SimTime& start, const ChangedObjects& objects) {
   failure_.clear();
   is_new_part_ = true;
+  moved_notes_ = 0;
   objects_ = objects;
   note_.outcome = nullptr;
   note_.first_step = start.step;
-  writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
+  writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start,
+                                           options_.distribution);
   recorded_robots_ = robots_.size();
   previous_file_ = std::exchange(file_, file);
   if (auto* const mcap = writer_->mcap()) topics_.begin(*mcap, note_, objects, nanosecondsOf(start.seconds()));
@@ -62,15 +71,26 @@ void RunRecording::write(const State& state) {
     const auto moves =
         are_new ? movedBetween(objects_.orThose(of_world), state.objects.orThose(of_world)) : std::nullopt;
     std::vector<TopicMessage> messages;
+    std::vector<RobotVelocity> velocities;
     if (writer_->isMcap()) {
       const std::string winner = state.winner() ? robots_[*state.winner()].name : "";
       const std::uint64_t time_ns = nanosecondsOf(state.time.seconds());
+      velocities = trueVelocities(state);
       messages = topics_.of(state.objects, are_new ? &moves : nullptr, notes, winner, time_ns);
     }
-    const std::string moved = are_new && notes_moves ? movedNote(objects_, state.objects, moves) : "";
-    if (!moved.empty()) notes.push_back(moved);
+    std::string moved = are_new && notes_moves ? movedNote(objects_, state.objects, moves) : "";
+    if (!moved.empty()) {
+      const std::size_t notes_max = std::max(kMovedNotesPerList, state.objects.orThose(of_world).size());
+      if (isNoteOfAllObjects(moved)) {
+        moved_notes_ = 0;
+      } else if (++moved_notes_ >= notes_max) {
+        moved = allObjectsNote(state.objects);
+        moved_notes_ = 0;
+      }
+      notes.push_back(std::move(moved));
+    }
     for (; recorded_robots_ < robots_.size(); ++recorded_robots_) writer_->addRobot(robots_[recorded_robots_]);
-    writer_->write(state.readings, state.world_from_robot, state.commands, notes, messages);
+    writer_->write(state.readings, state.world_from_robot, state.commands, notes, messages, velocities);
     is_new_part_ = false;
     objects_ = state.objects;
   } catch (const RecordingError& error) {

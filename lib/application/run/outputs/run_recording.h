@@ -18,6 +18,7 @@ struct RecordingOptions {
   std::filesystem::path file;  ///< of the first part
   RawlogFormat format = RawlogFormat::observations;
   RawlogImages images = RawlogImages::embedded;
+  RosDistribution distribution = RosDistribution::jazzy;  ///< of an MCAP file
 };
 
 /// Recording of a run, in one or more parts: each start after a stop opens the next file, "run_part2.rawlog".
@@ -72,6 +73,7 @@ class RunRecording {
   bool is_requested_ = false;             ///< the current or last part is of openNext()
   bool is_new_part_ = false;              ///< no step of the part has been written
   ChangedObjects objects_;                ///< of the step recorded last
+  std::size_t moved_notes_ = 0;           ///< number since the last list of all objects
   std::shared_ptr<const Model> model_;
   WorldTopics topics_;  ///< of an MCAP file
   std::string failure_;

@@ -89,6 +89,16 @@ TEST_F(Worlds, ExamplesInTheirDocumentationLoad) {
           "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/>" + text(example) + "</surface></world>",
           "w.xml", errors);
       EXPECT_EQ(world.scatters.at(0).count, 20);
+    } else if (example.name == "object") {
+      const World world = parseWorld(
+          "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/>" + text(example) + "</surface></world>",
+          "w.xml", errors);
+      EXPECT_TRUE(world.objects.at(0).body.isFloor());
+    } else if (example.name == "georeference") {
+      const World world = parseWorld(
+          "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/></surface>" + text(example) + "</world>",
+          "w.xml", errors);
+      EXPECT_EQ(world.georeference.value().origin.altitude_m, 519);
     } else if (example.name == "communication") {
       const World world = parseWorld(
           "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/></surface>" + text(example) + "</world>",
@@ -98,7 +108,7 @@ TEST_F(Worlds, ExamplesInTheirDocumentationLoad) {
     }
   }
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 8);
+  EXPECT_EQ(examples, 10);
 }
 
 TEST_F(Worlds, ShippedRobotTypesLoad) {

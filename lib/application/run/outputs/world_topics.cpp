@@ -46,6 +46,19 @@ ros::Marker markerOf(const WorldObject& object, std::size_t id, ros::Time stamp)
 
 }  // namespace
 
+RobotVelocity trueVelocity(const State& state, std::size_t robot) {
+  // Not the speeds of the state, which are those it continues with: a robot that a wall has stopped has moved.
+  const Motion& motion = state.last_motion[robot];
+  const double period_s = state.time.period_s;
+  return {motion.length_m / period_s, motion.turn_rad / period_s, motion.lateral_m / period_s};
+}
+
+std::vector<RobotVelocity> trueVelocities(const State& state) {
+  std::vector<RobotVelocity> all;
+  for (std::size_t i = 0; i < state.last_motion.size(); ++i) all.push_back(trueVelocity(state, i));
+  return all;
+}
+
 TopicMessage WorldTopics::map(std::uint64_t time_ns) const {
   const World& world = model_->world;
   std::vector<HeightSpan> robots;

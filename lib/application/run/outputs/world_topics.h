@@ -6,11 +6,16 @@
 #include <vector>
 
 #include "environment/environment.h"
+#include "hardware/robot_velocity.h"
 #include "recording/mcap_recording.h"
 #include "run/outputs/run_note.h"
 #include "topics/topic.h"
 
 namespace robosim {
+
+/// The true velocity of a robot in the last step.
+RobotVelocity trueVelocity(const State& state, std::size_t robot);
+std::vector<RobotVelocity> trueVelocities(const State& state);
 
 /// The topics of a run besides those of its robots (doc/ros2.md): the map and the objects of the world, interventions
 /// and events; and what an MCAP file says about the run.

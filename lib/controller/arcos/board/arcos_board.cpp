@@ -12,6 +12,7 @@
 #include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
+#include "hardware/inertial_reading.h"
 
 namespace robosim {
 namespace {
@@ -39,7 +40,7 @@ std::uint16_t wrapped(double length_m, double unit_mm) {
 }  // namespace
 
 ArcosBoard::ArcosBoard(Robot& robot, const arcos::Parameters& parameters)
-    : robot_(robot), parameters_(parameters), drive_(robot) {
+    : robot_(robot), parameters_(parameters), drive_(robot), camera_(robot) {
   startSession();
 }
 
@@ -55,6 +56,8 @@ void ArcosBoard::startSession() {
   bumper_stall_ = 0;
   battery_test_volts_ = 0;
   digital_out_ = 0xFF;
+  camera_.startSession();
+  aux_ = {};
   last_odom_from_robot_ = robot_.odometry().odom_from_robot;
   left_mm_ = right_mm_ = 0;
   zeroOdometry();
@@ -84,9 +87,16 @@ void ArcosBoard::execute(const Packet& packet) {
     is_stopping_ = packet.id != command::stop;
     return;
   }
+  if (packet.id == command::tty2) {
+    if (const auto bytes = arcos::textOf(packet)) aux_.receive(camera_.receive(*bytes));
+    return;
+  }
   const auto number = arcos::numberOf(packet);
   if (!number) return;
   switch (packet.id) {
+    case command::getaux:
+      aux_.request(*number);
+      break;
     case command::enable:
       if (const bool on = *number != 0; on != are_motors_on_) {
         are_motors_on_ = on;
@@ -176,6 +186,14 @@ arcos::GripperPacket ArcosBoard::gripper() const {
   return {arcos::GripperPacket::kGeneralIo, {state.is_closed, state.inner_beam, state.outer_beam}};
 }
 
+std::optional<double> ArcosBoard::gyroRate() const {
+  const auto& sensors = *robot_.info().sensors;
+  const auto gyro = std::find_if(sensors.begin(), sensors.end(), InertialReading::isOf);
+  if (gyro == sensors.end()) return std::nullopt;
+  const auto& measured = robot_.readings().measurements[static_cast<std::size_t>(gyro - sensors.begin())];
+  return InertialReading::from(std::get<Values>(measured)).turn_radps;
+}
+
 void ArcosBoard::update(bool is_link_alive) {
   const mrpt::math::TPose2D& odom_from_robot = robot_.odometry().odom_from_robot;
   const double turned = mrpt::math::wrapToPi(odom_from_robot.phi - last_odom_from_robot_.phi);
@@ -260,6 +278,7 @@ arcos::ConfigPacket ArcosBoard::config() const {
   config.accel_top = number(std::min(limits.accel_mps2, limits.decel_mps2) * kMm);
   config.cycle_ms = rounded<std::uint8_t>(arcos::kCycle_s * 1000);
   config.has_gripper = robot_.hasGripper();
+  config.has_gyro = gyroRate().has_value();
   config.has_front_sonar = parameters_.has_front_sonar;
   config.has_rear_sonar = parameters_.has_rear_sonar;
   config.low_battery_decivolts = rounded<std::uint16_t>(parameters_.low_battery_volts * 10);

@@ -1,8 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include <mrpt/math/TPose2D.h>
 
+#include "arcos/board/serial_camera.h"
+#include "arcos/protocol/aux_port.h"
 #include "arcos/protocol/config_packet.h"
 #include "arcos/protocol/gripper_packet.h"
 #include "arcos/protocol/io_packets.h"
@@ -41,6 +45,12 @@ class ArcosBoard {
   arcos::ConfigPacket config() const;
   arcos::EncoderTicks encoderTicks() const;
   arcos::GripperPacket gripper() const;
+  /// Rate of the robot's gyro, counter-clockwise [rad/s]; nullopt: it has none.
+  std::optional<double> gyroRate() const;
+  /// The packet of what the device at AUX1 has answered, a camera that pans, tilts and zooms, when it is complete;
+  /// empty until then.
+  std::string takeAuxPacket() { return aux_.takePacket(); }
+  CameraAim camera() const { return robot_.cameraAim(); }  ///< of the camera at AUX1
   arcos::DigitalPorts ports() const { return {.in = 0xFF, .out = digital_out_}; }
 
   /// Odometry in the frame of the session [m, rad].
@@ -65,6 +75,8 @@ class ArcosBoard {
   int bumper_stall_ = 0;           ///< 1: front bumpers stall the motors, 2: rear bumpers
   double battery_test_volts_ = 0;  ///< 0: the true voltage
   std::uint8_t digital_out_ = 0xFF;
+  SerialCamera camera_;
+  arcos::AuxPort aux_;
   mrpt::math::TPose2D session_from_odom_;
   mrpt::math::TPose2D last_odom_from_robot_;
   double left_mm_ = 0, right_mm_ = 0;  ///< distances of the wheels since the start of the session, signed

@@ -4,6 +4,7 @@
 
 #include "arcos/protocol/bytes.h"
 #include "arcos/protocol/command.h"
+#include "arcos/protocol/gyro_packet.h"
 
 namespace robosim {
 namespace {
@@ -104,6 +105,9 @@ void ArcosSession::execute(const Packet& packet, std::string& answer) {
     case command::io_request:
       io_ = readStream(packet);
       return;
+    case command::gyro:
+      sends_gyro_ = arcos::numberOf(packet).value_or(0) != 0;
+      return;
     case command::gripper: {
       const int operation = arcos::numberOf(packet).value_or(0);
       awaits_gripper_value_ =
@@ -120,6 +124,11 @@ void ArcosSession::execute(const Packet& packet, std::string& answer) {
     case command::gripper_value:
       if (std::exchange(awaits_gripper_value_, false)) return;
       return configureLaser(packet);
+    case command::tty2:
+    case command::getaux:
+      robot_.board->execute(packet);
+      answer += robot_.board->takeAuxPacket();
+      return;
     case command::old_laser_enable:
     case command::old_laser_increment:
     case command::laser_enable:
@@ -160,11 +169,12 @@ void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
       const auto operation = bytes.take<std::uint16_t>();
       if (operation == arcos::sim_operation::request_info) {
         answer += encode(arcos::SimInfo{"RoboSim", "1"});
-      } else if (operation == arcos::sim_operation::load_map || operation == arcos::sim_operation::load_master_map) {
+      } else if (operation == arcos::sim_operation::load_map) {
+        if (const auto map = robot_.simulator->loadMap(arcos::decodeLoadMap(packet))) answer += encode(*map);
+      } else if (operation == arcos::sim_operation::load_master_map) {
         // The program may wait for an answer.
         answer += encode(arcos::SimMap{.file = robot_.simulator->mapFile()});
-        robot_.simulator->log(
-            "a map is not loaded for a program: give it to robosim arcos, or load it by robosim control");
+        robot_.simulator->log("there is no master of maps: the map in use stays; a program may load one by its name");
       } else {
         robot_.simulator->log(
             "a SIM_CTRL operation without effect: only loading a map and the information request are answered");
@@ -179,32 +189,36 @@ void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
 void ArcosSession::configureLaser(const Packet& packet) {
   const auto number = arcos::numberOf(packet);
   if (!number) return;
-  // The commands from 230 on may name a laser; there is only the first one.
+  // The commands from 230 on may name a laser.
   constexpr std::size_t kNumberBytes = 3;
-  if (packet.payload.size() > kNumberBytes && packet.payload[kNumberBytes] != 0) return;
+  const bool is_named = packet.id >= command::laser_enable && packet.payload.size() > kNumberBytes;
+  const std::size_t index = is_named ? static_cast<std::uint8_t>(packet.payload[kNumberBytes]) : 0;
+  if (index >= lasers_.size()) return;
+  LaserRequest& laser = lasers_[index];
   switch (packet.id) {
     case command::old_laser_start:
     case command::laser_start:
-      laser_.start_deg = *number;
+      laser.start_deg = *number;
       break;
     case command::old_laser_end:
     case command::laser_end:
-      laser_.end_deg = *number;
+      laser.end_deg = *number;
       break;
     case command::old_laser_increment:
     case command::laser_resolution:
-      laser_.increment_centideg = *number;
+      laser.increment_centideg = *number;
       break;
     default:
-      laser_.form = *number == 2   ? LaserRequest::Form::extended
-                    : *number == 1 ? LaserRequest::Form::ranges
-                                   : LaserRequest::Form::off;
+      // Packets of the other form have no number of a laser.
+      laser.form = *number == 2 || (*number == 1 && index > 0) ? LaserRequest::Form::extended
+                   : *number == 1                              ? LaserRequest::Form::ranges
+                                                               : LaserRequest::Form::off;
   }
-  if (laser_.form == LaserRequest::Form::off || laser_.beamCount() > 0) return;
-  robot_.simulator->log("a laser scan from " + std::to_string(laser_.start_deg) + "° to " +
-                        std::to_string(laser_.end_deg) + "° every " + std::to_string(laser_.increment_centideg) +
+  if (laser.form == LaserRequest::Form::off || laser.beamCount() > 0) return;
+  robot_.simulator->log("a laser scan from " + std::to_string(laser.start_deg) + "° to " +
+                        std::to_string(laser.end_deg) + "° every " + std::to_string(laser.increment_centideg) +
                         "/100° is not possible: the laser is off");
-  laser_.form = LaserRequest::Form::off;
+  laser.form = LaserRequest::Form::off;
 }
 
 ArcosSession::Stream ArcosSession::readStream(const Packet& packet) {
@@ -228,6 +242,12 @@ void ArcosSession::beforeStep(Clock::time_point now) {
   robot_.board->update(isOpen() && now - last_packet_ < std::chrono::milliseconds(arcos::kWatchdog_ms));
 }
 
+void ArcosSession::continueWith(const Robot& robot) {
+  robot_ = robot;
+  was_moved_ = true;
+  if (isOpen()) robot_.board->startSession();
+}
+
 std::string ArcosSession::cycle() {
   commands_ = 0;
   if (!isOpen()) return {};
@@ -236,10 +256,16 @@ std::string ArcosSession::cycle() {
   packets += encode(robot_.board->sip());
   if (takes(encoder_)) packets += encode(robot_.board->encoderTicks());
   if (takes(io_)) packets += encode(robot_.board->ports());
+  if (const auto rate_radps = robot_.board->gyroRate(); sends_gyro_ && rate_radps)
+    packets += arcos::encodeGyro(*rate_radps);
   if (takes(gripper_)) packets += encode(robot_.board->gripper());
-  if (laser_.form != LaserRequest::Form::off) {
-    packets += arcos::encodeScan(laser_.form, robot_.simulator->scan(), std::exchange(was_moved_, false));
+  bool is_moved_sent = false;
+  for (std::size_t i = 0; i < lasers_.size(); ++i) {
+    if (lasers_[i].form == LaserRequest::Form::off) continue;
+    packets += arcos::encodeScan(lasers_[i].form, robot_.simulator->scan(i), was_moved_, i);
+    is_moved_sent = true;
   }
+  if (is_moved_sent) was_moved_ = false;
   return packets;
 }
 

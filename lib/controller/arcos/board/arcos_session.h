@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -20,10 +21,13 @@ class Simulator {
   virtual ~Simulator() = default;
   virtual arcos::SimStat stat() const = 0;
   virtual std::string mapFile() const = 0;  ///< in use
+  /// Loads a map. @param file as the program names it
+  /// @return the answer, with the map in use; nullopt when it follows as soon as the map is loaded or refused
+  virtual std::optional<arcos::SimMap> loadMap(const std::string& file) = 0;
   virtual void setTruePose(const arcos::SimPose& pose) = 0;
   virtual void resetTruePose() = 0;  ///< to the start
-  /// The scan that the session's LaserRequest describes, measured in this step [mm].
-  virtual std::span<const std::uint16_t> scan() const = 0;
+  /// The scan that the session's LaserRequest of a laser describes, measured in this step.
+  virtual arcos::Scan scan(std::size_t laser) const = 0;
   virtual void log(const std::string& text) = 0;
 };
 
@@ -64,7 +68,10 @@ class ArcosSession {
   bool isOpen() const { return phase_ == Phase::open; }
   /// Why the connection is to be closed; empty while it is not.
   const std::string& endReason() const { return end_reason_; }
-  const arcos::LaserRequest& laser() const { return laser_; }
+  /// What is requested of each laser.
+  const std::array<arcos::LaserRequest, arcos::kLasersMax>& lasers() const { return lasers_; }
+  /// Continues with a robot of another run: its odometry is 0, and its limits are those of its type.
+  void continueWith(const Robot& robot);
   void noteMoved() { was_moved_ = true; }  ///< the robot has been placed elsewhere
 
  private:
@@ -86,8 +93,9 @@ class ArcosSession {
   Clock::time_point connected_at_, last_bytes_, last_packet_;
   std::size_t commands_ = 0;  ///< since the last cycle
   std::string end_reason_;
-  arcos::LaserRequest laser_;
+  std::array<arcos::LaserRequest, arcos::kLasersMax> lasers_;
   bool was_moved_ = false;
+  bool sends_gyro_ = false;
   bool awaits_gripper_value_ = false;  ///< the next command::gripper_value is not of a laser
   Stream encoder_ = Stream::off, io_ = Stream::off, gripper_ = Stream::off, sim_stat_ = Stream::off;
 };

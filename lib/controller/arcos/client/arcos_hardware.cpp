@@ -148,10 +148,11 @@ void ArcosHardware::describe(ArcosRobotType type) {
     const bool is_laser = sensor.kind == SensorKind::laser;
     // A board without a compass sends 0.
     const bool has_compass = client_.isSimulated() || client_.sip().compass != 0;
-    const bool has_source = is_laser ? options_.laser || (client_.isSimulated() && canCarryScans(sensor))
-                            : sensor.kind == SensorKind::compass ? has_compass
-                            : GripperState::isOf(sensor)         ? client_.config() && client_.config()->has_gripper
-                                                                 : true;
+    const bool has_source =
+        is_laser ? options_.laser || (options_.requests_laser && client_.isSimulated() && canCarryScans(sensor))
+        : sensor.kind == SensorKind::compass ? has_compass
+        : GripperState::isOf(sensor)         ? client_.config() && client_.config()->has_gripper
+                                             : true;
     if (canReport(sensor) && has_source) {
       sensors.push_back(sensor);
     } else {
@@ -181,7 +182,7 @@ bool ArcosHardware::canCarryScans(const SensorInfo& laser) const {
   constexpr double kSipBytes = 100;  // of one with 16 sonars, and some reserve
   const std::vector<std::uint16_t> ranges(laser.beams.size());
   const auto scan_bytes =
-      static_cast<double>(arcos::encodeScan(arcos::LaserRequest::Form::extended, ranges, false).size());
+      static_cast<double>(arcos::encodeScan(arcos::LaserRequest::Form::extended, {.ranges_mm = ranges}, false).size());
   const double needed = (scan_bytes + kSipBytes) / arcos::kCycle_s;
   if (needed <= *capacity) return true;
   options_.log("the scans of '" + laser.label + "' need a line of " + std::to_string(std::lround(needed * 10)) +

@@ -42,6 +42,7 @@ class ArcosHardware final : public RealRobot, public BaseLink {
     std::function<ArcosRobotType(const std::string& subclass)> type_of;
     std::string name = "robot";         ///< RobotInfo::name
     std::unique_ptr<ScanSource> laser;  ///< null: that of a simulator, if the type has a laser
+    bool requests_laser = true;         ///< false: a simulator is not asked for scans
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
     std::function<bool()> interrupted = [] { return false; };                 ///< ends the waits
   };

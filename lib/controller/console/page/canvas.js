@@ -5,7 +5,8 @@ let colors = {};
 
 function readColors() {
   const style = getComputedStyle(document.documentElement);
-  const names = ['text', 'muted', 'line', 'grid', 'surface', 'raised', 'accent', 'bad', 'gold', 'sonar', 'laser', 'robot', 'heat', 'good', 'gold-mark'];
+  const names = ['text', 'muted', 'line', 'grid', 'surface', 'raised', 'accent', 'bad', 'gold', 'sonar', 'laser', 'robot', 'heat', 'good', 'gold-mark',
+    'ground', 'wall', 'edge'];
   colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }
 
@@ -53,4 +54,24 @@ export function drawRobot(g, radius, fill, stroke, lineWidth) {
   g.closePath();
   g.fillStyle = stroke;
   g.fill();
+}
+
+// Draws what placeLabels() has placed: the texts, with an edge in the colour of the surface, and the lines to their markers.
+export function drawLabels(g, labels) {
+  g.strokeStyle = color('muted');
+  g.lineWidth = 1;
+  g.beginPath();
+  for (const { leader } of labels) {
+    if (!leader) continue;
+    g.moveTo(...leader.from);
+    g.lineTo(...leader.to);
+  }
+  g.stroke();
+  g.lineWidth = 3;
+  g.strokeStyle = color('surface');
+  g.fillStyle = color('text');
+  for (const { text, x, y } of labels) {
+    g.strokeText(text, x, y);
+    g.fillText(text, x, y);
+  }
 }

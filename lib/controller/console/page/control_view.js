@@ -1,6 +1,7 @@
 // Displays who drives, and enables what this page may do: the lock's button, the driving controls, the robot's mode.
 
 import { isRunOver, mayMove } from './banner.js';
+import { isGame } from './layout.js';
 import { setPill } from './state_view.js';
 
 const $ = (id) => document.getElementById(id);
@@ -24,9 +25,10 @@ export class ControlView {
     // A page with the control lock but without the robot may request it again. The lock may be released if others watch.
     const mayTake = hasControl ? !primary.driver && !primary.is_yours && primary.up : lock.holder === 0;
     const mayRelease = hasControl && !mayTake && pages > 1;
+    const isInRounds = Boolean(this.state.game?.rounds);  // visitors drive in turn
     $('control').firstElementChild.textContent = mayRelease ? 'Release' : 'Take';
     $('control').dataset.message = mayRelease ? 'release' : 'take';
-    $('control').hidden = !mayTake && !mayRelease;
+    $('control').hidden = isInRounds || (!mayTake && !mayRelease);
   }
 
   showMode() {
@@ -37,7 +39,7 @@ export class ControlView {
     else if (isRunOver(this.state)) setPill($('mode'), primary.activity === 'found' ? 'has won' : 'run over', primary.activity === 'found' ? 'good' : 'info');
     else if (!primary.up) setPill($('mode'), 'down', 'bad');
     else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
-    else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
+    else if (primary.autonomous) setPill($('mode'), isGame(document.body.dataset.layout) ? 'explores by itself' : 'autonomous', 'info');
     else if (!this.link.freshness.isFresh(performance.now())) setPill($('mode'), 'no update', 'bad');
     else if (now?.is_stopping) setPill($('mode'), now.why_stopped ? `stopping: ${now.why_stopped}` : 'stopping', 'warn');
     else if (now?.why_stopped) setPill($('mode'), `stopped: ${now.why_stopped}`, 'warn');

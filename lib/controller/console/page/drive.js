@@ -113,6 +113,8 @@ export class Drive extends EventTarget {
       this.#stopKeyDown(event);
       return;
     }
+    // Without control it stops nothing, and is not neutral until it is released: the page may get control before.
+    if (STOP_KEYS.has(event.code) && !event.repeat) this.hold(`key:${event.code}`, {});
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const id = `key:${event.code}`;
     const command = heldKey(event.code);

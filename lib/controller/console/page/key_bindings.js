@@ -9,4 +9,4 @@ export const MOTION_KEYS = {
 export const STOP_KEYS = new Set(['Space', 'Escape']);
 export const ORDER_KEYS = { '+': 'accelerate', '=': 'accelerate', '-': 'decelerate', c: 'check_win' };
 // Of the page itself: main.js has the functions
-export const PAGE_KEYS = { n: 'next_robot', r: 'autonomous', m: 'map', f: 'full_screen', '?': 'help' };
+export const PAGE_KEYS = { n: 'next_robot', r: 'autonomous', m: 'map', f: 'full_screen', h: 'sound', i: 'details', '?': 'help' };

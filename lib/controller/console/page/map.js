@@ -1,6 +1,6 @@
 // Map of the true poses of all robots. Drivers normally use readings only, so that the map is shown only on request.
 
-import { begin, color, drawRobot } from './canvas.js';
+import { begin, color, drawLabels, drawRobot } from './canvas.js';
 import { markerAt, placeLabels } from './labels.js';
 
 const REACH_PX = { mouse: 6, touch: 16 };  // around a robot, within which pointing at it shows its name
@@ -99,21 +99,7 @@ export class Map2D {
     g.textBaseline = 'middle';
     g.lineJoin = 'round';
     const labels = placeLabels(markers, (text) => g.measureText(text).width, 0.85 * rem, { width, height });
-    g.strokeStyle = color('muted');
-    g.lineWidth = 1;
-    g.beginPath();
-    for (const { leader } of labels.filter((label) => label.leader)) {
-      g.moveTo(...leader.from);
-      g.lineTo(...leader.to);
-    }
-    g.stroke();
-    g.lineWidth = 3;
-    g.strokeStyle = color('surface');
-    g.fillStyle = color('text');
-    for (const { text, x, y } of labels) {
-      g.strokeText(text, x, y);
-      g.fillText(text, x, y);
-    }
+    drawLabels(g, labels);
     this.canvas.dataset.names = JSON.stringify(labels.map(({ name }) => name));
     this.#drawPointedAt(g, width, rem);
   }

@@ -60,6 +60,13 @@ export class Readings {
     $('r-turn').textContent = `${degrees(turn)} °/s, target ${degrees(state.turn_radps)}`;
   }
 
+  // What the robot does and shall do, for Brake. Odometry that is absent is null.
+  get motion() {
+    if (!this.#update) return null;
+    const { state } = this.#update;
+    return { measured_mps: this.#reading('odometry')?.speed_mps ?? null, target_mps: state.speed_mps, isStopping: state.is_stopping };
+  }
+
   // The first sensor of a kind: its measurement in the update; null without such a sensor.
   #reading(kind) {
     const slot = this.#robot.sensors.findIndex((sensor) => sensor.kind === kind);

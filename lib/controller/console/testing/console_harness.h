@@ -53,10 +53,13 @@ class ConsoleHarness {
   };
 
   /// @param tokens token file; empty: every page has every right
+  /// @param rounds of visitors; nullopt for none
   explicit ConsoleHarness(const std::string& tokens = "",
-                          const std::vector<std::string>& robots = {"Ann", "Bob", "Cid"})
+                          const std::vector<std::string>& robots = {"Ann", "Bob", "Cid"},
+                          const std::optional<Rounds::Options>& rounds = std::nullopt)
       : access(tokens.empty() ? Access() : Access::parse(tokens, "tokens", accessOptions())),
-        session(access),
+        session(access, rounds),
+        has_rounds(rounds.has_value()),
         reference_(tokens.empty() ? Access() : Access::parse(tokens, "tokens", accessOptions())) {
     const FakeHardware hardware;
     for (const auto& name : robots) {
@@ -122,7 +125,7 @@ class ConsoleHarness {
     if (!jpeg.empty()) news.picture = std::make_shared<const RobotPicture>(RobotPicture{steps_, jpeg});
     this->update();
   }
-  void update() { perform(session.update({row, is_map_watched ? map : nullptr, access.refresh(), run}, now)); }
+  void update() { perform(session.update({row, is_map_watched ? map : nullptr, access.refresh(), run, today}, now)); }
   ///@}
 
   /// Sends up to `most` waiting messages to a page. @return their number
@@ -158,14 +161,17 @@ class ConsoleHarness {
   std::chrono::steady_clock::time_point now{std::chrono::hours(1)};
   Access access;
   ConsoleSession session;
+  bool has_rounds;
   std::vector<TeamRobot> row;  ///< the primary first
   std::shared_ptr<const MapView> map;
   bool is_map_watched = false;
   RunView run;
+  std::string today = "2027-01-01";
   std::map<PageId, Page> pages;
   std::vector<Order> orders;
   std::vector<std::string> log;
-  std::size_t motions = 0, switches = 0, disconnections = 0, restarts = 0;  ///< in all
+  std::string saved;  ///< the newest results of the day
+  std::size_t motions = 0, switches = 0, disconnections = 0, restarts = 0, resumptions = 0;  ///< in all
   std::vector<bool> recordings;  ///< requests to start and stop the recording
 
  private:
@@ -235,7 +241,9 @@ class ConsoleHarness {
       return true;
     }
     if (order.has_set_mode()) {
-      require(holderMayDrive(primary()), "a robot's controller is enabled by the holder of the control lock only");
+      const bool explores = has_rounds && session.lockHolder() == 0 && order.set_mode().autonomous();
+      require(explores || holderMayDrive(primary()),
+              "a robot's controller is enabled by the holder of the control lock, or between rounds of visitors");
       row.front().news.state.set_autonomous(order.set_mode().autonomous());
       return true;
     }
@@ -275,8 +283,21 @@ class ConsoleHarness {
     return true;
   }
   bool operator()(const RestartRun&) {
-    require(run.may_restart && !run.is_restarting, "a run is started only after the end of the previous one");
+    require(run.may_restart || (has_rounds && run.may_replace),
+            "a run is started only after the end of the previous one");
+    require(!run.is_restarting, "a run is started once");
+    if (has_rounds) row.front().news.is_up = false;  // it leaves the run
     ++restarts;
+    return false;
+  }
+  bool operator()(const ResumeRun&) {
+    require(has_rounds, "only rounds of visitors load a run that is paused");
+    row.front().news.is_up = true;
+    ++resumptions;
+    return false;
+  }
+  bool operator()(const SaveResults& action) {
+    saved = action.text;
     return false;
   }
   bool operator()(const RecordRun& action) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <string>
 
 #include "console/testing/console_harness.h"
@@ -14,8 +15,8 @@ namespace robosim {
 class ConsoleScenario {
  public:
   static constexpr std::size_t kMaxPages = 6;
-  /// Queued messages, and one each of: robot, team, run, map, poses, pulse; and three updates.
-  static constexpr std::size_t kMaxWaiting = PageOutbox::kMaxQueued + 9;
+  /// Queued messages, and one each of: robot, team, run, game, map, poses, pulse; and three updates.
+  static constexpr std::size_t kMaxWaiting = PageOutbox::kMaxQueued + 10;
 
   /// Bytes of the input; zeros after its end.
   class Source {
@@ -79,11 +80,16 @@ class ConsoleScenario {
     if (harness.session.lockHolder() != 0) throw std::logic_error("violated: no page, and no holder of the lock");
   }
 
-  ConsoleHarness harness{
-      "viewer-0123456789abcdef viewer\n"
-      "only-ann-0123456789abcdef robot Ann\n"
-      "ann-and-bob-0123456789abcdef robot Ann Bob\n"
-      "operator-0123456789abcdef operator\n"};
+  /// @param rounds of visitors; nullopt for none
+  explicit ConsoleScenario(const std::optional<Rounds::Options>& rounds = std::nullopt)
+      : harness(
+            "viewer-0123456789abcdef viewer\n"
+            "only-ann-0123456789abcdef robot Ann\n"
+            "ann-and-bob-0123456789abcdef robot Ann Bob\n"
+            "operator-0123456789abcdef operator\n",
+            {"Ann", "Bob", "Cid"}, rounds) {}
+
+  ConsoleHarness harness;
 
   static constexpr const char* kTokens[] = {"viewer-0123456789abcdef", "only-ann-0123456789abcdef",
                                             "ann-and-bob-0123456789abcdef", "operator-0123456789abcdef",
@@ -114,6 +120,15 @@ class ConsoleScenario {
       R"({"type":"map","on":true})",
       R"({"type":"map","on":false})",
       R"({"type":"ack","number":1})",
+  };
+
+  /// Of a console with rounds.
+  static constexpr const char* kRoundMessages[] = {
+      R"({"type":"join","name":"Visitor","team":"Red"})",
+      R"({"type":"join"})",
+      R"({"type":"start"})",
+      R"({"type":"leave"})",
+      R"({"type":"skip"})",
   };
 
   void open() {

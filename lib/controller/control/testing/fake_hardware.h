@@ -51,6 +51,7 @@ class FakeHardware : public Hardware, public RefereeLink {
   }
 
   const RobotInfo& info() const override { return info_; }
+  void setDrive(const Drive& drive) { info_.drive = drive; }
   const std::vector<std::string>& robots() const override { return robot_names; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }

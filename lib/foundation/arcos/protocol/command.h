@@ -35,8 +35,11 @@ constexpr std::uint8_t gripper_value = 36;    ///< after some operations; also o
 constexpr std::uint8_t gripper_request = 37;  ///< as encoder, for packet_type::gripper; also old_laser_end
 constexpr std::uint8_t old_laser_enable = 35, old_laser_start = 36, old_laser_end = 37, old_laser_increment = 38;
 constexpr std::uint8_t io_request = 40;  ///< as encoder, for packet_type::io
+constexpr std::uint8_t tty2 = 42;        ///< bytes for the device at the auxiliary serial port AUX1
+constexpr std::uint8_t getaux = 43;  ///< number of bytes that it has sent to send in packet_type::aux; 0: discard them
 constexpr std::uint8_t bumpstall = 44;
 constexpr std::uint8_t estop = 55, qstop = 57;  ///< stop at the maximum deceleration
+constexpr std::uint8_t gyro = 58;               ///< 0 stop, 1 or 2 with every SIP: packet_type::gyro
 constexpr std::uint8_t battery_info = 62;
 constexpr std::uint8_t sim_set_pose = 224;  ///< true pose
 constexpr std::uint8_t sim_reset = 225;     ///< true pose to the start, odometry to 0
@@ -57,6 +60,8 @@ constexpr std::uint8_t sim_stat = 0x62, sim_info = 0x63;        ///< simulator_p
 constexpr std::uint8_t sim_map = 0x66;                          ///< simulator_packets.h
 constexpr std::uint8_t encoder = 0x90, io = 0xF0;               ///< io_packets.h
 constexpr std::uint8_t gripper = 0xE0;                          ///< gripper_packet.h
+constexpr std::uint8_t gyro = 0x98;                             ///< gyro_packet.h
+constexpr std::uint8_t aux = 0xB0;                              ///< aux_port.h
 }  // namespace packet_type
 
 /// Encodes a command without an argument.

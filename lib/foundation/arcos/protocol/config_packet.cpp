@@ -31,9 +31,9 @@ std::string encode(const ConfigPacket& config) {
   bytes.add(config.accel).add(config.decel);
   bytes.add(u16(0)).add(u16(0)).add(u16(0));  // gains of the speed controller
   bytes.add(config.front_bumpers).add(config.rear_bumpers);
-  bytes.add(u8(0)).add(u8(40)).add(u8(0));  // charger; sonar cycle [ms]; automatic baud rate
-  bytes.add(u8(0)).add(std::int16_t{0});    // gyro, drift factor
-  bytes.add(u8(0)).add(u8(0));              // baud rates of further ports
+  bytes.add(u8(0)).add(u8(40)).add(u8(0));              // charger; sonar cycle [ms]; automatic baud rate
+  bytes.add(u8(config.has_gyro)).add(std::int16_t{0});  // drift factor
+  bytes.add(u8(0)).add(u8(0));                          // baud rates of further ports
   bytes.add(config.ticks_per_mm);
   bytes.add(u16(0));  // shut-down voltage
   bytes.addText(config.firmware);
@@ -86,7 +86,7 @@ std::optional<ConfigPacket> decodeConfig(const Packet& packet) {
   skip8();
   skip8();
   skip8();
-  skip8();
+  config.has_gyro = bytes.take<std::uint8_t>() == 1;
   skip16(1);
   skip8();
   skip8();

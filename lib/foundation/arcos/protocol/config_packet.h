@@ -25,6 +25,7 @@ struct ConfigPacket {
   std::uint16_t turn_accel = 0, turn_decel = 0;
   std::uint16_t accel = 0, decel = 0;
   std::uint8_t front_bumpers = 0, rear_bumpers = 0;
+  bool has_gyro = false;  ///< an analogue one, whose readings the program integrates
   std::uint16_t ticks_per_mm = 0;
   std::string firmware = "S.robosim";
   bool operator==(const ConfigPacket&) const = default;

@@ -16,7 +16,8 @@ std::size_t LaserRequest::beamCount() const {
   return count <= kBeamsMax ? count : 0;
 }
 
-std::string encodeScan(LaserRequest::Form form, std::span<const std::uint16_t> ranges_mm, bool was_moved) {
+std::string encodeScan(LaserRequest::Form form, const Scan& scan, bool was_moved, std::size_t laser) {
+  const auto& [ranges_mm, reflectance] = scan;
   constexpr std::size_t kReadingsMax = 32;
   const bool is_extended = form == LaserRequest::Form::extended;
   std::string packets;
@@ -26,11 +27,13 @@ std::string encodeScan(LaserRequest::Form form, std::span<const std::uint16_t> r
     if (!is_extended) bytes.add(std::int16_t{0}).add(std::int16_t{0}).add(std::int16_t{0});  // pose, which ARIA ignores
     bytes.add(static_cast<std::uint16_t>(ranges_mm.size())).add(static_cast<std::uint16_t>(first));
     bytes.add(static_cast<std::uint8_t>(count));
-    for (const auto range : ranges_mm.subspan(first, count)) {
-      bytes.add(range);
-      if (is_extended) bytes.add(std::uint8_t{0}).add(std::uint8_t{0}).add(std::uint8_t{0});  // reflectance, unused
+    for (std::size_t i = first; i < first + count; ++i) {
+      bytes.add(ranges_mm[i]);
+      if (!is_extended) continue;
+      bytes.add(i < reflectance.size() ? reflectance[i] : std::uint8_t{0});
+      bytes.add(std::uint8_t{0}).add(std::uint8_t{0});  // unused
     }
-    if (is_extended) bytes.add(std::uint8_t{0}).add(static_cast<std::uint8_t>(was_moved));  // number of the laser
+    if (is_extended) bytes.add(static_cast<std::uint8_t>(laser)).add(static_cast<std::uint8_t>(was_moved));
     packets += encode(is_extended ? packet_type::laser_extended : packet_type::laser, bytes.bytes());
   }
   return packets;
@@ -53,6 +56,7 @@ bool ScanAssembler::add(const Packet& packet) {
     bytes.take<std::uint8_t>();
     bytes.take<std::uint16_t>();
   }
+  if (is_extended && bytes.take<std::uint8_t>() != 0) return false;  // of another laser
   if (first == 0) {
     parts_.clear();
     total_ = total;

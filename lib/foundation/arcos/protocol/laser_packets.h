@@ -30,16 +30,27 @@ struct LaserRequest {
   static constexpr std::size_t kBeamsMax = 4096;
 };
 
+/// Number of lasers that a program may request; the first is 0, the one that ARIA knows.
+constexpr std::size_t kLasersMax = 4;
+
+/// Reflectance that a simulator reports of a reflector; 0 of everything else. MobileSim sends the same.
+constexpr std::uint8_t kReflector = 33;
+
+/// A scan, from the first beam to the last.
+struct Scan {
+  std::span<const std::uint16_t> ranges_mm;
+  std::span<const std::uint8_t> reflectance = {};  ///< of each beam; empty: 0
+};
+
 /// Reading of a beam without an echo [mm]: more than the 32,000 mm that ARIA accepts from an LMS200.
 constexpr std::uint16_t kNoEcho_mm = 32767;
 
 /// The packets of one scan, concatenated. Each has at most 32 readings, as many as fit.
-/// @param form not off
-/// @param ranges_mm from the first beam to the last
+/// @param form not off; only extended packets have the reflectance and the laser
 /// @param was_moved whether the robot has been placed elsewhere since the last scan
-std::string encodeScan(LaserRequest::Form form, std::span<const std::uint16_t> ranges_mm, bool was_moved);
+std::string encodeScan(LaserRequest::Form form, const Scan& scan, bool was_moved, std::size_t laser = 0);
 
-/// Joins the packets of a scan.
+/// Joins the packets of a scan of the first laser; those of others are none.
 class ScanAssembler {
  public:
   /// @return whether the packet completes a scan, which scan() then returns

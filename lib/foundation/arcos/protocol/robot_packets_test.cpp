@@ -1,7 +1,11 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "arcos/protocol/bytes.h"
 #include "arcos/protocol/command.h"
 #include "arcos/protocol/config_packet.h"
+#include "arcos/protocol/gyro_packet.h"
 #include "arcos/protocol/io_packets.h"
 #include "arcos/protocol/laser_packets.h"
 #include "arcos/protocol/simulator_packets.h"
@@ -119,22 +123,51 @@ TEST(ArcosConfig, HasItsFieldsInTheOrderOfTheSpecification) {
             "00 00 00 53 2e 31 2e 30 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 3e ab");
 }
 
+TEST(ArcosGyro, SendsFourReadingsOfItsVoltage) {
+  EXPECT_EQ(hex(encodeGyro(0)), hex(encode(0x98, std::string("\x04\0\x02\x19\0\x02\x19\0\x02\x19\0\x02\x19", 13))))
+      << "512, half of the range";
+  // 90°/s are 0.75 V, 153.45 counts, by 1.626: 94.373 counts less. The sum of four is 1,670.5.
+  PacketReader reader;
+  reader.add(encodeGyro(M_PI / 2));
+  const auto packet = reader.next();
+  ASSERT_TRUE(packet);
+  ByteReader bytes(packet->payload);
+  EXPECT_EQ(bytes.take<std::uint8_t>(), 4);
+  int sum = 0;
+  for (int i = 0; i < 4; ++i) {
+    const int reading = bytes.take<std::uint16_t>();
+    bytes.take<std::uint8_t>();
+    EXPECT_NEAR(reading, 417.627, 1);
+    sum += reading;
+  }
+  EXPECT_EQ(sum, 1671);
+}
+
 TEST(ArcosSimulator, HasTheFieldsOfItsStateInTheOrderOfTheSpecification) {
   EXPECT_EQ(hex(encode(SimStat{100, 50, 51, -1234, 5678, 0, -90})),
             "fa fb 3b 62 00 00 00 00 00 00 64 00 32 00 33 00 2e fb ff ff 2e 16 00 00 00 00 00 00 a6 ff ff ff "
             "00 00 00 00 00 00 00 00 00 00 00 00 ff ff ff ff 00 00 00 00 00 00 00 00 00 00 00 00 73 c7");
 }
 
+TEST(ArcosSimulator, HasThePositionOnTheEarthInTenMillionthsOfADegree) {
+  // As above with the flag 2, 48.5° N = 485,000,000, 11.25° W = −112,500,000, 519.5 m = 51,950 cm and the quality 100.
+  const SimStat stat{100, 50, 51, -1234, 5678, 0, -90, SimPosition{true, 485'000'000, -112'500'000, 51'950}};
+  EXPECT_EQ(hex(encode(stat)).substr(0, 48 * 3 - 1),
+            "fa fb 3b 62 00 00 02 00 00 00 64 00 32 00 33 00 2e fb ff ff 2e 16 00 00 00 00 00 00 a6 ff ff ff "
+            "40 83 e8 1c e0 62 4b f9 ee ca 00 00 64 00 00 00");
+  EXPECT_EQ(decodeSimStat(packetOf(encode(stat))), stat);
+}
+
 TEST(ArcosLaser, DividesAScanIntoPacketsOf32Readings) {
   std::vector<std::uint16_t> ranges(181);
   for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = static_cast<std::uint16_t>(1000 + i);
-  const std::string extended = encodeScan(LaserRequest::Form::extended, ranges, true);
+  const std::string extended = encodeScan(LaserRequest::Form::extended, {.ranges_mm = ranges}, true);
   EXPECT_EQ(extended.size(), 5u * 173 + 118);
   EXPECT_EQ(hex(extended.substr(0, 14)), "fa fb aa 61 b5 00 00 00 20 e8 03 00 00 00");
   EXPECT_EQ(hex(extended.substr(169, 2)), "00 01");  // the first laser; moved
   for (const auto form : {LaserRequest::Form::ranges, LaserRequest::Form::extended}) {
     PacketReader reader;
-    reader.add(encodeScan(form, ranges, false));
+    reader.add(encodeScan(form, {.ranges_mm = ranges}, false));
     ScanAssembler assembler;
     int packets = 0, scans = 0;
     while (auto packet = reader.next()) {
@@ -147,12 +180,39 @@ TEST(ArcosLaser, DividesAScanIntoPacketsOf32Readings) {
   }
 }
 
+TEST(ArcosLaser, HasTheReflectanceOfEachBeamAndTheNumberOfTheLaser) {
+  const std::vector<std::uint16_t> ranges{1000, 2000};
+  const std::vector<std::uint8_t> reflectance{0, kReflector};
+  const Scan scan{.ranges_mm = ranges, .reflectance = reflectance};
+  const std::string extended = encodeScan(LaserRequest::Form::extended, scan, false, 1);
+  EXPECT_EQ(hex(extended.substr(4, extended.size() - 6)),
+            "02 00 00 00 02 e8 03 00 00 00 d0 07 21 00 00 01 00");  // 33 is 0x21; laser 1, not moved
+  PacketReader reader;
+  reader.add(extended);
+  ScanAssembler first_laser;
+  EXPECT_FALSE(first_laser.add(*reader.next())) << "of the second one";
+  const std::string plain = encodeScan(LaserRequest::Form::ranges, scan, false);
+  EXPECT_EQ(hex(plain.substr(4, plain.size() - 6)), "00 00 00 00 00 00 02 00 00 00 02 e8 03 d0 07");
+}
+
+TEST(ArcosSimulatorCommands, NamesTheMapToLoad) {
+  const auto request = [](std::uint16_t operation, const std::string& text, std::uint16_t length) {
+    ByteWriter bytes;
+    bytes.add(std::uint8_t{0x2B}).add(operation).add(length).addText(text);
+    return Packet{command::sim_control, bytes.bytes()};
+  };
+  EXPECT_EQ(decodeLoadMap(request(sim_operation::load_map, "other.map", 9)), "other.map");
+  EXPECT_EQ(decodeLoadMap(request(sim_operation::load_map, "other.map", 10)), "other.map") << "with its NUL";
+  EXPECT_EQ(decodeLoadMap(request(sim_operation::load_map, "other.map", 5)), "other");
+  EXPECT_EQ(decodeLoadMap(request(sim_operation::request_info, "", 0)), "");
+}
+
 TEST(ArcosLaser, DropsAScanOfWhichAPartIsMissingOrTwice) {
   const std::vector<std::uint16_t> ranges(100, 500);
   for (const std::size_t fault : {0u, 1u, 2u}) {
     for (const bool is_twice : {false, true}) {
       PacketReader reader;
-      for (int i = 0; i < 2; ++i) reader.add(encodeScan(LaserRequest::Form::extended, ranges, false));
+      for (int i = 0; i < 2; ++i) reader.add(encodeScan(LaserRequest::Form::extended, {.ranges_mm = ranges}, false));
       ScanAssembler assembler;
       int scans = 0;
       for (std::size_t i = 0; auto packet = reader.next(); ++i) {

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <limits>
+#include <memory>
 
 #include "base/vector_width.h"
 #include "geometry/casting/beam_kernels.h"
@@ -20,9 +23,12 @@ struct Blocks {
 
 /// The largest of `count` numbers; `count` must be a positive multiple of four.
 [[gnu::always_inline]] inline double largest(const double* numbers, std::size_t count) {
-  double lane_max[4] = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  DoubleQuad lane_max;
+  std::memcpy(&lane_max, numbers, sizeof lane_max);
   for (std::size_t i = 4; i < count; i += 4) {
-    for (std::size_t j = 0; j < 4; ++j) lane_max[j] = numbers[i + j] > lane_max[j] ? numbers[i + j] : lane_max[j];
+    DoubleQuad next;
+    std::memcpy(&next, numbers + i, sizeof next);
+    lane_max = next > lane_max ? next : lane_max;
   }
   return std::max(std::max(lane_max[0], lane_max[1]), std::max(lane_max[2], lane_max[3]));
 }
@@ -31,9 +37,9 @@ struct Blocks {
 template <auto kIntersect, std::size_t kBlock>
 [[gnu::always_inline]] inline void intersectChosen(const Beams& beams, const Blocks& blocks,
                                                    const Candidates& candidates, const BearingArrays& arrays,
-                                                   const std::uint8_t* chosen, std::size_t count) {
-  for (std::size_t j = 0; j < count; ++j) {
-    const std::size_t k = chosen[j];
+                                                   std::uint32_t chosen) {
+  for (; chosen != 0; chosen &= chosen - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(chosen));
     const std::uint32_t begin = blocks.first[arrays.first[k]];
     const std::uint32_t end = blocks.first[arrays.last[k] + 1];
     const GridItem& item = *candidates.item[k];
@@ -54,36 +60,47 @@ template <auto kIntersect, std::size_t kBlock>
 }
 
 /// Intersects candidates with all beams that may hit them.
+/// @return the largest distance of all beams
 template <typename Kernel, std::size_t kBlock>
-[[gnu::always_inline]] inline void intersectAll(Beams beams, const CullFrame* frame, double z_m, Blocks blocks,
-                                                const Candidates* candidates) {
-  static thread_local BearingArrays arrays;
-  gather(*candidates, *frame, arrays);
+[[gnu::always_inline]] inline double intersectAll(Beams beams, const CullFrame* frame, double z_m, Blocks blocks,
+                                                  const Candidates* candidates, BearingArrays* bearings) {
+  BearingArrays& arrays = *bearings;
   // The covering disc suffices for wide gaps between beams.
-  findBins<kBlock == kNarrowBlock>(*frame, candidates->count, arrays);
-  // Sorted by shape without branches, because the shape is unpredictable.
-  std::uint8_t circles[Candidates::kCapacity], boxes[Candidates::kCapacity];
-  std::size_t circle_count = 0, box_count = 0;
-  for (std::size_t k = 0; k < candidates->count; ++k) {
-    const GridItem& item = *candidates->item[k];
-    const std::size_t fits = (item.heights.z_min_m <= z_m) & (z_m <= item.heights.z_max_m) &
-                             !(arrays.nearest[k] > frame->reach_m);  // also for NaN
-    const std::size_t is_circle = item.isCircle();
-    circles[circle_count] = boxes[box_count] = static_cast<std::uint8_t>(k);
-    circle_count += fits & is_circle;
-    box_count += fits & (1 - is_circle);
-  }
-  intersectChosen<Kernel::circle, kBlock>(beams, blocks, *candidates, arrays, circles, circle_count);
-  intersectChosen<Kernel::box, kBlock>(beams, blocks, *candidates, arrays, boxes, box_count);
+  constexpr bool kDisc = kBlock == kNarrowBlock;
+  const CandidatesByShape shapes = gather<kDisc>(*candidates, *frame, z_m, arrays);
+  const std::uint32_t far = findBins<kDisc>(*frame, candidates->count, arrays);
+  // By shape, because the shape is unpredictable.
+  intersectChosen<Kernel::circle, kBlock>(beams, blocks, *candidates, arrays, shapes.circles & ~far);
+  intersectChosen<Kernel::box, kBlock>(beams, blocks, *candidates, arrays, shapes.boxes & ~far);
+  return largest(beams.distance, blocks.count * kBlock);
 }
 
-/// Rotates points or directions about the origin and translates them by (x0, y0).
-[[gnu::always_inline]] inline void transform(const double* __restrict x, const double* __restrict y, std::size_t count,
-                                             double x0, double y0, double cos, double sin, double* __restrict to_x,
-                                             double* __restrict to_y) {
+/// Rotates directions.
+[[gnu::always_inline]] inline void turn(const double* __restrict x, const double* __restrict y, std::size_t count,
+                                        double cos, double sin, double* __restrict to_x, double* __restrict to_y) {
   for (std::size_t i = 0; i < count; ++i) {
-    to_x[i] = x0 + cos * x[i] - sin * y[i];
-    to_y[i] = y0 + sin * x[i] + cos * y[i];
+    to_x[i] = cos * x[i] - sin * y[i];
+    to_y[i] = sin * x[i] + cos * y[i];
+  }
+}
+
+/// Transforms the origins and the left edges of beams, which have no hit yet.
+[[gnu::always_inline]] inline void placeBeams(const double* __restrict x, const double* __restrict y,
+                                              const double* __restrict left_x, const double* __restrict left_y,
+                                              std::size_t count, const PlanarTransform* world_from_fan,
+                                              const PlanarTransform* panned, double range_m, double* __restrict to_x,
+                                              double* __restrict to_y, double* __restrict to_left_x,
+                                              double* __restrict to_left_y, double* __restrict distance,
+                                              double* __restrict body) {
+  const PlanarTransform at = *world_from_fan;
+  const double cos = panned->cos(), sin = panned->sin();
+  for (std::size_t i = 0; i < count; ++i) {
+    to_x[i] = at.x() + at.cos() * x[i] - at.sin() * y[i];
+    to_y[i] = at.y() + at.sin() * x[i] + at.cos() * y[i];
+    to_left_x[i] = cos * left_x[i] - sin * left_y[i];
+    to_left_y[i] = sin * left_x[i] + cos * left_y[i];
+    distance[i] = range_m;
+    body[i] = static_cast<double>(BeamBatch::kNothing);
   }
 }
 
@@ -121,14 +138,16 @@ void BeamBatch::initialize() {
       field->x.resize(count);
       field->y.resize(count);
     }
+    distance_.resize(count);
+    body_.resize(count);
   }
-  const auto turn = [&](const BeamFan::Vectors& from, double x0, double y0, const PlanarTransform& by,
-                        BeamFan::Vectors& to) {
-    withVectors<transform>(from.x.data(), from.y.data(), count, x0, y0, by.cos(), by.sin(), to.x.data(), to.y.data());
-  };
-  turn(fan.origin_, world_from_fan_.x(), world_from_fan_.y(), world_from_fan_, origin_);
-  turn(fan.left_, 0, 0, panned_, left_);
-  if (fan.is_wide_) turn(fan.right_, 0, 0, panned_, right_);
+  withVectors<placeBeams>(fan.origin_.x.data(), fan.origin_.y.data(), fan.left_.x.data(), fan.left_.y.data(), count,
+                          &world_from_fan_, &panned_, farthest_m_, origin_.x.data(), origin_.y.data(), left_.x.data(),
+                          left_.y.data(), distance_.data(), body_.data());
+  if (fan.is_wide_) {
+    withVectors<turn>(fan.right_.x.data(), fan.right_.y.data(), count, panned_.cos(), panned_.sin(), right_.x.data(),
+                      right_.y.data());
+  }
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     const std::size_t slot = fan.slot_[i];
     origin_.x[slot] = moved_[i].origin.x;
@@ -136,8 +155,6 @@ void BeamBatch::initialize() {
     left_.x[slot] = moved_[i].direction.x;
     left_.y[slot] = moved_[i].direction.y;
   }
-  distance_.assign(count, farthest_m_);
-  body_.assign(count, kNothing);
   // The padding of the last group never hits anything.
   std::fill(distance_.begin() + static_cast<std::ptrdiff_t>(size()), distance_.end(),
             -std::numeric_limits<double>::max());
@@ -155,20 +172,16 @@ void BeamBatch::intersect(const Candidates& candidates) {
                         fan_->half_width_rad_ + static_cast<float>(turned_rad_),
                         static_cast<float>(farthest_m_)};
   const Blocks blocks{fan_->first_.data(), distance_.size() / fan_->block_};
+  // On the heap, because the compiler treats each access to a thread's variable as a call, around which it spills the
+  // vectors of its loops.
+  static thread_local const auto arrays = std::make_unique<BearingArrays>();
   const auto intersect = [&](auto kernel) {
     using Kernel = decltype(kernel);
-    if (fan_->block_ == kNarrowBlock) {
-      withVectors<intersectAll<Kernel, kNarrowBlock>>(beams, &frame, z_m_, blocks, &candidates);
-    } else {
-      withVectors<intersectAll<Kernel, kWideBlock>>(beams, &frame, z_m_, blocks, &candidates);
-    }
+    return fan_->block_ == kNarrowBlock
+               ? withVectors<intersectAll<Kernel, kNarrowBlock>>(beams, &frame, z_m_, blocks, &candidates, arrays.get())
+               : withVectors<intersectAll<Kernel, kWideBlock>>(beams, &frame, z_m_, blocks, &candidates, arrays.get());
   };
-  if (fan_->is_wide_) {
-    intersect(SectorKernel());
-  } else {
-    intersect(RayKernel());
-  }
-  farthest_m_ = largest(distance_.data(), distance_.size());
+  farthest_m_ = fan_->is_wide_ ? intersect(SectorKernel()) : intersect(RayKernel());
 }
 
 }  // namespace robosim

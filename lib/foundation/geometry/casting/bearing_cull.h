@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
+#include "geometry/casting/items_of_four.h"
 #include "geometry/index/culling.h"
 
 /// Conservative culling by bearing in single precision: finds the interval of bearings at which a solid lies, without
@@ -43,10 +45,15 @@ struct CullFrame {
 /// the bins of their bearings. Entries beyond `count` are zero or outdated, and unused.
 struct alignas(64) BearingArrays {
   float x[Candidates::kCapacity], y[Candidates::kCapacity], axis_x[Candidates::kCapacity],
-      axis_y[Candidates::kCapacity], half_length[Candidates::kCapacity], half_width[Candidates::kCapacity],
-      round[Candidates::kCapacity];
+      axis_y[Candidates::kCapacity], half_length[Candidates::kCapacity], half_width[Candidates::kCapacity];
   std::int32_t first[Candidates::kCapacity], last[Candidates::kCapacity];  ///< bins; `last` may lie in a second turn
   float nearest[Candidates::kCapacity];                                    ///< lower bound of the distance [m]
+  std::int32_t is_far[Candidates::kCapacity];  ///< -1 if the solid is too far to change the result, otherwise 0
+};
+
+/// Sets of candidates: bit k for candidate k.
+struct CandidatesByShape {
+  std::uint32_t circles = 0, boxes = 0;
 };
 
 constexpr auto kFloatPi = static_cast<float>(M_PI);
@@ -59,8 +66,8 @@ constexpr float kBearingSlack_rad = 5e-4F;
   const float along = std::abs(x);
   const float aside = std::abs(y);
   const float more = along > aside ? along : aside;
-  const float less = along > aside ? aside : along;
-  const float a = less / (more > 1e-30F ? more : 1e-30F);
+  const float less = (along + aside) - more;  // not a selection, of which g++ would compute both branches
+  const float a = less / (more + 1e-30F);
   const float s = a * a;
   const float flat = a * (0.99921381F + s * (-0.32117497F + s * (0.14626446F + s * -0.03898651F)));
   const float steep = along > aside ? flat : kFloatPi / 2 - flat;
@@ -71,28 +78,44 @@ constexpr float kBearingSlack_rad = 5e-4F;
 /// An upper bound of the arcsine of a number from 0 to 1; exact at both.
 [[gnu::always_inline]] inline float arcsineUpperBound(float s) { return s + (kFloatPi / 2 - 1) * s * s * s; }
 
-/// Converts the candidates to single precision.
-[[gnu::always_inline]] inline void gather(const Candidates& candidates, const CullFrame& frame, BearingArrays& to) {
-  for (std::size_t k = 0; k < candidates.count; ++k) {
-    const GridItem& s = *candidates.item[k];
-    to.x[k] = static_cast<float>(s.x - frame.x);
-    to.y[k] = static_cast<float>(s.y - frame.y);
-    to.axis_x[k] = static_cast<float>(s.axis_x);
-    to.axis_y[k] = static_cast<float>(s.axis_y);
-    const double round_m = s.isCircle() ? s.half_length_m : 0;
-    to.half_length[k] = static_cast<float>(s.half_length_m - round_m);
-    to.half_width[k] = static_cast<float>(s.half_width_m);
-    to.round[k] = static_cast<float>(round_m);
+/// Converts the candidates to single precision, and selects those at a height by shape. Four at a time: their items are
+/// transposed in registers.
+/// @tparam kDisc whether findBins() computes covering discs, which have no axis
+template <bool kDisc>
+[[gnu::always_inline]] inline CandidatesByShape gather(const Candidates& candidates, const CullFrame& frame, double z_m,
+                                                       BearingArrays& to) {
+  CandidatesByShape found;
+  for (std::size_t k = 0; k < candidates.count; k += 4) {
+    const auto item = [&](std::size_t i) -> const GridItem& {
+      return *candidates.item[k + i < candidates.count ? k + i : k];
+    };
+    const ItemsOfFour items(item(0), item(1), item(2), item(3));
+    storeFloats(items.x - frame.x, to.x + k);
+    storeFloats(items.y - frame.y, to.y + k);
+    if constexpr (!kDisc) {
+      storeFloats(items.axis_x, to.axis_x + k);
+      storeFloats(items.axis_y, to.axis_y + k);
+    }
+    storeFloats(items.half_length, to.half_length + k);
+    storeFloats(items.half_width, to.half_width + k);
+    const std::uint32_t at_height = signsOf((items.z_min <= z_m) & (items.z_max >= z_m)) << k;
+    const std::uint32_t circles = signsOf(items.half_width == 0.0) << k;
+    found.circles |= at_height & circles;
+    found.boxes |= at_height & ~circles;
   }
+  const std::uint32_t all = static_cast<std::uint32_t>((std::uint64_t{1} << candidates.count) - 1);
+  return {found.circles & all, found.boxes & all};
 }
 
 /// Computes the interval of bearings of each candidate, as bins: of its outline, or of its covering disc, which is
 /// cheaper.
+/// @return set of the candidates that are too far to change the result; undefined beyond `count`
 template <bool kDisc>
-[[gnu::always_inline]] inline void findBins(const CullFrame& frame, std::size_t count, BearingArrays& arrays) {
+[[gnu::always_inline]] inline std::uint32_t findBins(CullFrame frame, std::size_t count, BearingArrays& arrays) {
   std::int32_t* __restrict first = arrays.first;
   std::int32_t* __restrict last = arrays.last;
   float* __restrict nearest_m = arrays.nearest;
+  std::int32_t* __restrict is_far = arrays.is_far;
   constexpr auto kError = static_cast<float>(kCullRelativeError);
   constexpr std::size_t kLanes = 16;  // of floats in the widest vectors
   constexpr float kPerRad = kBearingBins / (2 * kFloatPi);
@@ -102,17 +125,21 @@ template <bool kDisc>
     const float y = arrays.y[k];
     const float ux = arrays.axis_x[k];
     const float uy = arrays.axis_y[k];
-    const float half_length = arrays.half_length[k];
     const float half_width = arrays.half_width[k];
+    float half_length = arrays.half_length[k];
     float right = 0;
     float left = 0;
     float nearest = 0;
-    float round = arrays.round[k] + frame.spread_m;
+    float round = frame.spread_m;
     if constexpr (kDisc) {
       nearest = std::sqrt(x * x + y * y);
       round += std::sqrt(half_length * half_length + half_width * half_width);
       round += kError * (nearest + round);
     } else {
+      // A circle is its centre, rounded by its radius.
+      const float radius = half_width == 0 ? half_length : 0;
+      half_length -= radius;
+      round += radius;
       // The corners relative to the line to the centre. For a circle all lie on that line.
       const float p = x * ux + y * uy;
       const float q = x * uy - y * ux;
@@ -151,7 +178,15 @@ template <bool kDisc>
     first[k] = static_cast<std::int32_t>(is_all_round ? 0 : (right + turn + kFloatPi) * kPerRad);
     last[k] = static_cast<std::int32_t>(is_all_round ? float{kBearingBins - 1} : (left + turn + kFloatPi) * kPerRad);
     nearest_m[k] = nearest - round;
+    is_far[k] = nearest - round > frame.reach_m ? -1 : 0;  // false for NaN
   }
+  std::uint32_t far = 0;
+  for (std::size_t k = 0; k < lanes; k += 4) {
+    Int32Quad is_far_of_four;
+    std::memcpy(&is_far_of_four, is_far + k, sizeof is_far_of_four);
+    far |= signsOf(is_far_of_four) << k;
+  }
+  return far;
 }
 
 }  // namespace robosim

@@ -43,8 +43,8 @@ Hit castAmongMoving(const SceneIndex& scene, const Ray& ray, BodyId owner, Close
   const auto dx = static_cast<float>(ray.direction.x);
   const auto dy = static_cast<float>(ray.direction.y);
   scene.moving.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) {
-    const float across = dx * (entry.solid.y - from.y) - dy * (entry.solid.x - from.x);
-    if (std::abs(across) > entry.solid.radius_m + from.rounding_m) return;
+    const float across = dx * (entry.disc.y - from.y) - dy * (entry.disc.x - from.x);
+    if (std::abs(across) > entry.disc.radius_m + from.rounding_m) return;
     const GridItem& item = scene.moving.items()[entry.index];
     if (!item.heights.contains(ray.origin.z)) return;
     best.keepBetter(intersectItem(item, origin, direction), scene.movingBody(entry.index), owner);

@@ -32,7 +32,7 @@ struct EveryItem {
 }  // namespace
 
 CenterIndex::CenterIndex(std::size_t solids, const mrpt::math::TPoint2D& middle)
-    : middle_(middle), items_(solids), cell_(solids), entries_(solids) {
+    : middle_(middle), items_(solids), cell_(solids), entries_(solids + kTogether - 1) {
   // Upper bound of the cells that chooseCells() makes: (w / cell + 1)·(h / cell + 1), and the end.
   begin_.reserve(3 * (solids + static_cast<std::size_t>(kExtraCells)) + 2);
 }

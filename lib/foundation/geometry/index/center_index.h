@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel_executor.h"
+#include "geometry/index/culling.h"
 #include "geometry/index/grid_index.h"
 #include "geometry/shapes/ray.h"
 
@@ -20,10 +22,7 @@ namespace robosim {
 class CenterIndex {
  public:
   /// Entry of a cell: all that culling reads, so that culled solids cost no further memory access.
-  struct Entry {
-    CullDisc solid;
-    std::uint32_t index = 0;
-  };
+  using Entry = IndexedDisc;
 
   /// @param middle reference point of the entries' CullDisc coordinates, world frame
   explicit CenterIndex(std::size_t solids, const mrpt::math::TPoint2D& middle = {});
@@ -44,10 +43,21 @@ class CenterIndex {
   /// Calls visit(entry) once for each solid that may overlap `area`.
   template <typename Visit>
   void visitNear(const Bounds2D& area, const Visit& visit) const {
-    const int top = row(area.y_max + reach_max_m_);
-    for (int r = row(area.y_min - reach_max_m_); r <= top; ++r) {
-      visitRow(r, area.x_min - reach_max_m_, area.x_max + reach_max_m_, visit);
-    }
+    forRows(area, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) visit(entries_[i]);
+    });
+  }
+  /// Calls visit(index) once for each solid that a test may contain, four of which are tested together.
+  template <typename Visit>
+  void visitNear(const RangeCull& cull, const Visit& visit) const {
+    forRows(cull.bounds(), [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; i += kTogether) {
+        const Entry* const four = &entries_[i];
+        std::uint32_t found = cull.mayContain(FourCullDiscs(four));
+        if (end - i < kTogether) found &= (1U << (end - i)) - 1;
+        for (; found != 0; found &= found - 1) visit(four[std::countr_zero(found)].index);
+      }
+    });
   }
 
   /// Calls visit(entry) once for each solid that the ray may intersect nearer than reach(). reach() may decrease
@@ -91,7 +101,8 @@ class CenterIndex {
   void sortInParallel(const ParallelExecutor& workers, const Order& order);
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static constexpr double kMargin_m = 1e-6;  ///< exceeds all rounding errors
+  static constexpr double kMargin_m = 1e-6;      ///< exceeds all rounding errors
+  static constexpr std::uint32_t kTogether = 4;  ///< entries that are tested together
 
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
@@ -100,6 +111,15 @@ class CenterIndex {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
 
+  /// Calls visit(begin, end) for the entries in the cells of each row that may overlap `area`.
+  template <typename Visit>
+  void forRows(const Bounds2D& area, const Visit& visit) const {
+    const int left = column(area.x_min - reach_max_m_), right = column(area.x_max + reach_max_m_);
+    const int top = row(area.y_max + reach_max_m_);
+    for (int r = row(area.y_min - reach_max_m_); r <= top; ++r) {
+      visit(begin_[cellAt(r, left)], begin_[cellAt(r, right) + 1]);
+    }
+  }
   template <typename Visit>
   void visitRow(int row, double x_min, double x_max, const Visit& visit) const {
     const std::uint32_t end = begin_[cellAt(row, column(x_max)) + 1];
@@ -127,7 +147,7 @@ class CenterIndex {
   std::vector<std::uint32_t> begin_;  ///< first entry per cell, and the end
   std::vector<GridItem> items_;       ///< in the order given
   std::vector<std::uint32_t> cell_;   ///< cell of each solid
-  std::vector<Entry> entries_;        ///< sorted by cell
+  std::vector<Entry> entries_;        ///< sorted by cell, then kTogether - 1 unused ones
   struct CellOf {
     std::uint32_t cell = 0, solid = 0;
   };

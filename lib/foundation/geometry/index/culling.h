@@ -1,11 +1,14 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include <mrpt/math/TPoint2D.h>
 
 #include "geometry/index/grid_item.h"
+#include "geometry/index/quads.h"
 
 /// Conservative culling in single precision: tests that select candidate solids without false negatives.
 namespace robosim {
@@ -25,6 +28,30 @@ struct CullDisc {
     const double y = item.y - middle.y;
     const double rounding_m = kCullRelativeError * (std::abs(x) + std::abs(y) + item.reach()) + kSlack_m;
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(item.reach() + rounding_m)};
+  }
+};
+
+/// A disc with the index of its solid: 16 bytes.
+struct IndexedDisc {
+  CullDisc disc;
+  std::uint32_t index = 0;
+};
+
+/// Four discs, transposed in registers.
+struct FourCullDiscs {
+  FloatQuad x, y, radius_m;
+
+  explicit FourCullDiscs(const IndexedDisc* four) {
+    static_assert(sizeof *four == sizeof(FloatQuad));
+    FloatQuad row[4];
+    for (std::size_t i = 0; i < 4; ++i) std::memcpy(&row[i], four + i, sizeof row[i]);
+    const auto low_01 = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+    const auto low_23 = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+    const auto high_01 = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+    const auto high_23 = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+    x = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+    y = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+    radius_m = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
   }
 };
 
@@ -48,6 +75,7 @@ struct HalfPlaneCull {
   mrpt::math::TPoint2D facing;  ///< unit vector; (0, 0) accepts everything
   double margin_m = 0;
 
+  bool isEverything() const { return facing.x == 0 && facing.y == 0; }
   /// Whether a solid reaches into the half-plane. Conservative: no false negatives.
   bool mayContain(const GridItem& item) const {
     const double ahead_m = facing.x * (item.x - origin.x) + facing.y * (item.y - origin.y);
@@ -63,26 +91,29 @@ class RangeCull {
   RangeCull(const HalfPlaneCull& half_plane, double reach_m, const mrpt::math::TPoint2D& middle)
       : at_(half_plane.origin),
         reach_m_(std::min(reach_m, double{std::numeric_limits<float>::max()})),
-        place_(CullPoint::from(at_, reach_m_ + half_plane.margin_m, middle)),
-        far_m_(static_cast<float>(reach_m_) + place_.rounding_m),
-        facing_x_(static_cast<float>(half_plane.facing.x)),
-        facing_y_(static_cast<float>(half_plane.facing.y)),
-        margin_m_(static_cast<float>(half_plane.margin_m) + place_.rounding_m) {}
+        facing_x_(inEachLane(static_cast<float>(half_plane.facing.x))),
+        facing_y_(inEachLane(static_cast<float>(half_plane.facing.y))) {
+    const CullPoint place = CullPoint::from(at_, reach_m_ + half_plane.margin_m, middle);
+    x_ = inEachLane(place.x);
+    y_ = inEachLane(place.y);
+    far_m_ = inEachLane(static_cast<float>(reach_m_) + place.rounding_m);
+    margin_m_ = inEachLane(static_cast<float>(half_plane.margin_m) + place.rounding_m);
+  }
 
   Bounds2D bounds() const { return {at_.x - reach_m_, at_.x + reach_m_, at_.y - reach_m_, at_.y + reach_m_}; }
-  bool mayContain(const CullDisc& solid) const {
-    const float dx = solid.x - place_.x;
-    const float dy = solid.y - place_.y;
-    const float far_m = far_m_ + solid.radius_m;
-    const float back_m = margin_m_ + solid.radius_m;
-    return (dx * dx + dy * dy <= far_m * far_m) & (facing_x_ * dx + facing_y_ * dy >= -back_m);
+  /// One bit per solid.
+  std::uint32_t mayContain(const FourCullDiscs& solids) const {
+    const FloatQuad dx = solids.x - x_;
+    const FloatQuad dy = solids.y - y_;
+    const FloatQuad far_m = solids.radius_m + far_m_;
+    const FloatQuad back_m = solids.radius_m + margin_m_;
+    return signsOf((dx * dx + dy * dy <= far_m * far_m) & (facing_x_ * dx + facing_y_ * dy >= -back_m));
   }
 
  private:
   mrpt::math::TPoint2D at_;
   double reach_m_;
-  CullPoint place_;
-  float far_m_, facing_x_, facing_y_, margin_m_;
+  FloatQuad x_, y_, far_m_, facing_x_, facing_y_, margin_m_;
 };
 
 /// Tests the cells of a grid against a half-plane. Conservative: no false negatives.

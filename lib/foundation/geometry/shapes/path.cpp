@@ -4,10 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include <mrpt/math/wrap2pi.h>
-
 #include "base/angle_units.h"
 #include "base/portable_math.h"
+#include "base/wrapped_angle.h"
 #include "geometry/shapes/planar_vector.h"
 
 namespace robosim {
@@ -28,7 +27,7 @@ TPoint2D onArc(const Path& path, double share) {
   const double half_turn = share * path.turn_rad / 2;
   const double sinc = half_turn == 0 ? 1 : portable::sin(half_turn) / half_turn;
   const double chord = share * path.length_m * sinc;
-  const auto [sin, cos] = portable::sincos(path.world_from_start.phi + half_turn);
+  const auto [sin, cos] = portable::sincos(path.world_from_start.phi + path.direction_rad + half_turn);
   return {chord * cos, chord * sin};
 }
 
@@ -126,7 +125,7 @@ TPoint2D Path::centerAt(double fraction) const { return startOf(*this) + displac
 
 mrpt::math::TPose2D Path::endPose() const {
   const TPoint2D center = centerAt(1);
-  return {center.x, center.y, mrpt::math::wrapToPi(world_from_start.phi + clippedTurn())};
+  return {center.x, center.y, wrappedAngle(world_from_start.phi + clippedTurn())};
 }
 
 double firstContact(const Path& path, double radius_m, const Outline& outline) {

@@ -18,9 +18,12 @@ struct Path {
   double length_m = 0;      ///< signed: negative backwards
   double turn_rad = 0;      ///< signed, CCW
   double end_fraction = 1;  ///< fraction at which the centre stops; the turn still completes, unless turn_stops
-  /// The turn stops with the centre, as of a robot that holds an object. Its chords are shorter: at 0.5 m from the
-  /// centre they deviate from the arc by less than a fifth of kContactGap_m.
+  /// The turn stops with the centre, as of a car, or of a robot that holds an object. Its chords are shorter: at 0.5 m
+  /// from the centre they deviate from the arc by less than a fifth of kContactGap_m.
   bool turn_stops = false;
+  /// Direction in which the centre leaves the start, from its heading, CCW: 0 for a robot that drives ahead or back.
+  /// It turns with the robot.
+  double direction_rad = 0;
 
   int chords() const;
   /// Position of the centre at a fraction of the step; constant beyond end_fraction.

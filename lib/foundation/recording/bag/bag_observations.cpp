@@ -44,23 +44,9 @@ constexpr std::array kUses{
     BagUseRow{"tf2_msgs/msg/TFMessage", BagUse::transforms, "poses of sensors; odometry where no topic has it"},
 };
 
-/// Range, without the variance that Humble does not have.
-struct AnyRange {
-  ros::Header header;
-  std::uint8_t radiation_type = 0;
-  float field_of_view = 0, min_range = 0, max_range = 0, range = 0;
-  static constexpr const char* kType = "sensor_msgs/msg/Range";
-  static void describe(auto& self, auto&& visit) {
-    visit("header", self.header);
-    visit("radiation_type", self.radiation_type);
-    visit("field_of_view", self.field_of_view);
-    visit("min_range", self.min_range);
-    visit("max_range", self.max_range);
-    visit("range", self.range);
-  }
-};
+}  // namespace
 
-CObservation::Ptr observationOf(const BagSensor& sensor, const ros::LaserScan& scan) {
+CObservation::Ptr scanObservation(const ros::LaserScan& scan, const CPose3D& robot_from_scanner) {
   const std::size_t count = scan.ranges.size();
   const double increment = static_cast<double>(scan.angle_increment), first = static_cast<double>(scan.angle_min);
   if (count == 0 || count > kMaxBeams) throw std::runtime_error(std::to_string(count) + " ranges");
@@ -75,8 +61,7 @@ CObservation::Ptr observationOf(const BagSensor& sensor, const ros::LaserScan& s
   made->maxRange = scan.range_max;
   // MRPT's angles are about the middle of the scan.
   const double middle = first + turned / 2;
-  made->sensorPose =
-      std::abs(middle) < 1e-6 ? sensor.robot_from_frame : sensor.robot_from_frame + CPose3D(0, 0, 0, middle, 0, 0);
+  made->sensorPose = std::abs(middle) < 1e-6 ? robot_from_scanner : robot_from_scanner + CPose3D(0, 0, 0, middle, 0, 0);
   made->resizeScan(count);
   for (std::size_t i = 0; i < count; ++i) {
     const float range_m = scan.ranges[i];
@@ -87,7 +72,13 @@ CObservation::Ptr observationOf(const BagSensor& sensor, const ros::LaserScan& s
   return made;
 }
 
-CObservation::Ptr observationOf(const BagSensor& sensor, const AnyRange& range) {
+namespace {
+
+CObservation::Ptr observationOf(const BagSensor& sensor, const ros::LaserScan& scan) {
+  return scanObservation(scan, sensor.robot_from_frame);
+}
+
+CObservation::Ptr observationOf(const BagSensor& sensor, const ros::HumbleRange& range) {
   auto made = mrpt::obs::CObservationRange::Create();
   made->minSensorDistance = range.min_range;
   made->maxSensorDistance = range.max_range;
@@ -216,7 +207,7 @@ BagHeader bagHeaderOf(const std::string& type, std::span<const std::uint8_t> dat
 }
 
 CObservation::Ptr bagObservation(const BagSensor& sensor, std::span<const std::uint8_t> data) {
-  const auto made = observationOfOneOf<ros::LaserScan, AnyRange, ros::Odometry, ros::BatteryState, ros::Imu,
+  const auto made = observationOfOneOf<ros::LaserScan, ros::HumbleRange, ros::Odometry, ros::BatteryState, ros::Imu,
                                        ros::Temperature, ros::CompressedImage, ros::Image>(sensor, data);
   if (!made) throw std::runtime_error("the type " + sensor.type);
   made->sensorLabel = sensor.label;

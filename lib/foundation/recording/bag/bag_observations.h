@@ -56,6 +56,10 @@ mrpt::Clock::time_point timestampOf(std::int64_t time_ns);
 /// @throws ros::CdrError for bytes that are no message of the type; std::runtime_error for values that no observation
 /// has, as of a scan without angles or a damaged picture
 mrpt::obs::CObservation::Ptr bagObservation(const BagSensor& sensor, std::span<const std::uint8_t> data);
+/// A scan without label and timestamp. Ranges outside range_min to range_max, and not above 0, are invalid.
+/// @throws std::runtime_error for a scan without ranges, and for angles that are not finite
+mrpt::obs::CObservation::Ptr scanObservation(const ros::LaserScan& scan,
+                                             const mrpt::poses::CPose3D& robot_from_scanner);
 /// Adds the range of a message, of which `all` is an observation, to an observation of the same label and time.
 /// @returns false when they are not both ranges
 bool addBagRange(mrpt::obs::CObservation& all, const mrpt::obs::CObservation& range);

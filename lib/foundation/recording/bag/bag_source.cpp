@@ -143,18 +143,24 @@ class BagSource final : public ObservationSource {
 
 /// Whether an MCAP file has the topic with a rawlog.
 bool containsRawlog(const std::filesystem::path& file) {
-  mcap::Reader reader(file);
-  const auto has_topic = [&] {
+  const auto has_topic = [](mcap::Reader& reader) {
     for (const auto& [id, channel] : reader.channels()) {
       if (channel.topic == kRawlogTopic) return true;
     }
     return false;
   };
-  // A summary may be without channels.
-  if (reader.contents().has_summary && !reader.channels().empty()) return has_topic();
-  while (!has_topic() && reader.next()) {
+  // RoboSim's files begin with a few messages of the world, then the rawlog. The summary of a large file takes seconds.
+  constexpr int kFirst = 16;
+  mcap::Reader first(file);
+  for (int i = 0; i < kFirst && first.next(); ++i) {
+    if (has_topic(first)) return true;
   }
-  return has_topic();
+  mcap::Reader reader(file);
+  // A summary may be without channels.
+  if (reader.contents().has_summary && !reader.channels().empty()) return has_topic(reader);
+  while (!has_topic(reader) && reader.next()) {
+  }
+  return has_topic(reader);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace robosim {
 namespace {
 
 constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of sensor.">
-  <body radius_m="0.2" height_m="0.3"/>
+  <body radius_m="0.2" height_m="0.3" fiducial="9"/>
   <limits speed_max_mps="1" accel_mps2="1" decel_mps2="2" emergency_decel_mps2="3" turn_max_degps="100" turn_accel_degps2="200"/>
   <sensors>
     <sonar range_max_m="3" beam_width_deg="20" noise="polaroid">
@@ -30,7 +30,11 @@ constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of se
     <compass><noise offset_deg="1" hard_iron_deg="5" hard_iron_at_deg="20" soft_iron_deg="2" soft_iron_at_deg="70"/></compass>
     <battery standing_h="0.01" driving_h="0.001"><noise drop_v_per_mps="0.3" drop_v_per_radps="0.1" std_v="0.01"/></battery>
     <battery standing_h="0.01" driving_h="0.001"/>
-    <camera width_px="8" height_px="8" rate_hz="3"/>
+    <ground><at x_m="0.05"/><noise std="0.1"/></ground>
+    <light range_max_m="4"><ring count="3" radius_m="0.2" z_m="0.1"/><noise std_lx="0.1"/></light>
+    <omni_camera range_max_m="3" count="4"><noise dropout="0.1"/></omni_camera>
+    <fiducial range_max_m="4" count="3" field_of_view_deg="180"><noise/></fiducial>
+    <camera width_px="8" height_px="8" rate_hz="3"><ptz/></camera>
     <blob_finder><color name="gold" rgb="1 0.8 0.1"/></blob_finder>
   </sensors>
 </robot>)";
@@ -54,6 +58,16 @@ class PoseImages : public ImageSource {
 
 std::string nameOf(std::uint32_t robot) { return "r" + std::to_string(robot); }
 
+/// Drives of some robots.
+std::optional<XmlElement> driveOf(std::uint32_t robot) {
+  const auto drive = [](std::vector<std::pair<std::string, std::string>> attributes) {
+    return XmlElement{"drive", "", std::move(attributes), {}, {}};
+  };
+  if (robot % 4 == 1) return drive({{"type", "omni"}, {"lateral_max_mps", "0.7"}});
+  if (robot % 4 == 3) return drive({{"type", "tracked"}, {"track_factor", "1.5"}, {"icr_x_m", "-0.05"}});
+  return std::nullopt;
+}
+
 /// Three rows of robots with movable boxes in the rows, and walls and gold between them.
 World randomWorld(Rng& rng) {
   World world = emptyWorld(4);
@@ -67,6 +81,12 @@ World randomWorld(Rng& rng) {
     for (int i = 0; i < 3; ++i) addWall(world, rng.uniform(-3, 3), y_m, rng.uniform(0.1, 1.5), 0.1);
   }
   addGold(world, rng.uniform(-3, 3), 1.5, 0.1);
+  world.objects.front().body.light_cd = 3;
+  world.objects.back().body.fiducial = 2;
+  WorldObject nest = world.objects.back();
+  nest.name = "nest";
+  nest.body = {.shape = Cylinder{1}, .world_from_body = {}, .center_z_m = -0.1, .height_m = 0.2};
+  world.objects.push_back(nest);
   addBox(world, {-1.25, -2.5, 0.3}, 0.4, 0.2, {.mass_kg = 2});
   addBox(world, {1.25, 0, 0}, 0.3, 0.3, {.mass_kg = 1, .friction = 0.02, .restitution = 0.7});
   addBox(world, {-1.25, 2.5, 1}, 0.5, 0.1, {.mass_kg = 8});
@@ -75,6 +95,7 @@ World randomWorld(Rng& rng) {
     placement.name = nameOf(i);
     placement.model = "probe";
     placement.world_from_robot = {2.5 * (i % 3) - 2.5, 2.5 * (i / 3) - 2.5, rng.uniform(-3, 3)};
+    placement.drive = driveOf(i);
     world.robots.push_back(placement);
   }
   return world;
@@ -102,7 +123,8 @@ void intervene(Environment& environment, Rng rng) {
         if (objects.size() > 2) return RemoveBody{object};
         [[fallthrough]];
       case 4:
-        return ChangeObject{object, rng.below(2) * 30.0, {{0.1f, 0.2f, 0.3f}}, rng.uniform(0.1, 2), rng.uniform()};
+        return ChangeObject{object,        rng.below(2) * 30.0, {{0.1f, 0.2f, 0.3f}}, rng.uniform(0.1, 2),
+                            rng.uniform(), {4.0, 5.0}};
       case 5:
         return ChangeActivity{nameOf(rng.below(ProbeRun::kRobots)), Activity::active};
       default: {
@@ -146,10 +168,15 @@ void ProbeRun::prepare(Environment& environment) const {
       Command command{.speed_mps = rng.uniform(-0.5, 1.5),
                       .turn_radps = rng.uniform(-2, 2),
                       .laser_pan_rad = static_cast<float>(rng.uniform(-2, 2))};
+      if (rng.below(2) == 0) command.lateral_mps = rng.uniform(-1, 1);
       if (rng.below(100) == 0) command.activity = Activity::halted;
       command.by_driver = rng.below(2) == 0;
       command.emergency_stop = rng.below(8) == 0;
       command.grip = command.by_driver != command.emergency_stop;
+      if (command.by_driver) command.led_color = 0x10203 * i;
+      if (rng.below(3) == 0) {
+        command.camera_head = {{rng.uniform(-2, 2), rng.uniform(-1, 2), rng.uniform(0, 20)}, rng.uniform(-1, 2), 0.5};
+      }
       environment.setCommand(i, command);
     }
     for (std::uint32_t k = rng.below(3); k > 0; --k) {

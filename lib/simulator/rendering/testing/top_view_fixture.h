@@ -50,7 +50,7 @@ struct TopViewTest : testing::Test {
   RunSnapshot snapshot;
   RunPaths paths;
   TopViewCamera camera = TopViewCamera::showing({0, 10, 0, 5}, 1048, 700);
-  TopViewLayers layers{.paths = true, .sensors = true, .names = false, .paths_from_s = 0};
+  ViewLayers layers{.paths = true, .sensors = true, .names = false, .paths_from_s = 0};
 };
 
 }  // namespace robosim

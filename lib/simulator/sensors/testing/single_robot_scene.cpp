@@ -19,6 +19,7 @@ Measurement SingleRobotScene::sense(const Sensor& sensor) {
                      .world_from_robot = {&world_from_robot, 1},
                      .frames = {&frame, 1},
                      .last_motion = {&motion, 1},
+                     .former_motion = {&former_motion, 1},
                      .laser_pan_rad = {&laser_pan_rad, 1},
                      .time = time_,
                      .seed = seed,
@@ -26,7 +27,9 @@ Measurement SingleRobotScene::sense(const Sensor& sensor) {
                      .surface = surface,
                      .paths = path ? std::span<const Path>(&*path, 1) : std::span<const Path>(),
                      .driven_m = {&driven_m, 1},
-                     .reflectivity = reflectivity};
+                     .reflectivity = reflectivity,
+                     .commands = {&command, 1},
+                     .georeference = georeference};
   sensor.sense(now, {&robot, 1}, 0, readings_);
   return readings_[0].measurements[0];
 }

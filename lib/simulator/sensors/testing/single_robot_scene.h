@@ -19,14 +19,16 @@ class SingleRobotScene {
   std::vector<double> ranges(const Sensor& sensor);
 
   std::vector<HeatSource> heat_sources;
-  Motion motion;
+  Motion motion, former_motion;
   double driven_m = 0;
   std::optional<Path> path;  ///< of this step
   float laser_pan_rad = 0;
+  Command command;
   std::uint64_t seed = 1;
   ImageSource* images = nullptr;
   std::optional<Bounds2D> surface;
   std::vector<float> reflectivity;  ///< by solid
+  const GeoReference* georeference = nullptr;
   mrpt::math::TPose2D world_from_robot;
 
  private:

@@ -71,11 +71,29 @@ class ActivmediaReader {
       }
       if (*mm > 0 && *mm < 1) fail("the resolution must be 0 or at least 1 millimetre");
       if (*mm > 0) resolution_mm_ = *mm;
+    } else if (words[0] == "OriginLatLongAlt:") {
+      readOrigin(words);
     } else if (words[0] == "MapInfo:") {
       readMapInfo(words);
     } else if (words[0] == "Cairn:") {
       cairns_.emplace_back(text_.number(), words);
     }
+  }
+
+  /// Reads the position of the map's origin: OriginLatLongAlt: 42.807 -71.58 50
+  void readOrigin(const std::vector<std::string>& words) {
+    std::array<double, 3> value{};
+    constexpr std::array<double, 3> kMax{90, 180, 10'000};
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const auto number = i + 1 < words.size() ? text_.parsed(words[i + 1]) : std::nullopt;
+      if (!number || !(std::abs(*number) <= kMax[i])) {
+        fail(
+            "the origin must be a latitude in [-90, 90] and a longitude in [-180, 180] degrees, and an altitude in "
+            "[-10000, 10000] metres");
+      }
+      value[i] = *number;
+    }
+    plan_.origin = GeoPosition{value[0], value[1], value[2]};
   }
 
   /// Reads a sector type that is an obstacle: MapInfo: SectorType Name=Box Sim.Obstacle=yes

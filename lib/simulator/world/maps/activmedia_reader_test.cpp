@@ -80,6 +80,12 @@ TEST(ActivmediaMap, ReportsStartPosesBestFirst) {
   EXPECT_EQ(plan.starts[2], TPose2D(1, 0, M_PI / 2));
 }
 
+TEST(ActivmediaMap, HasThePlaceOfItsOriginOnTheEarth) {
+  EXPECT_EQ(planOf("OriginLatLongAlt: 42.807 -71.58 50\n").origin, (GeoPosition{42.807, -71.58, 50}));
+  EXPECT_EQ(planOf("").origin, std::nullopt);
+  EXPECT_THROW(planOf("OriginLatLongAlt: 42.807 -181 50\n"), ConfigError);
+}
+
 TEST(ActivmediaMap, ConvertsReflectorsAndObstaclesToWallsButNotForbiddenLines) {
   const FloorPlan plan = planOf(
       "Cairn: Box 0 0 90 \"\" ICON \"a box\" 1000 0 2000 500\n"

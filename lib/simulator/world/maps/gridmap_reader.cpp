@@ -6,45 +6,18 @@
 #include <cmath>
 #include <cstring>
 
-#include <isa-l/igzip_lib.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include "base/error_list.h"
 #include "base/xml_element.h"
 #include "world/maps/map_formats.h"
+#include "world/maps/unpacked_map.h"
 
 namespace robosim {
 namespace {
 
 /// Maximum size [bytes] of a decompressed file: the cells, and space for the rest.
 constexpr std::size_t kMaxBytes = 2 * kMaxMapCells + (1u << 20);
-
-std::string inflated(const std::string& bytes, const std::string& path) {
-  inflate_state state;
-  isal_inflate_init(&state);
-  state.crc_flag = ISAL_GZIP;
-  state.next_in = reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data()));  // only read
-  state.avail_in = static_cast<std::uint32_t>(bytes.size());
-  std::string out;
-  std::array<std::uint8_t, 1 << 16> block;
-  while (state.block_state != ISAL_BLOCK_FINISH) {
-    state.next_out = block.data();
-    state.avail_out = block.size();
-    const int status = isal_inflate(&state);
-    out.append(reinterpret_cast<const char*>(block.data()), block.size() - state.avail_out);
-    if (status != ISAL_DECOMP_OK && status != ISAL_END_INPUT) {
-      throw ConfigError(path + ": is damaged: it cannot be decompressed beyond byte " + std::to_string(out.size()));
-    }
-    if (out.size() > kMaxBytes) {
-      throw ConfigError(path + ": holds more than " + std::to_string(kMaxBytes >> 20) +
-                        " MiB once it is decompressed; no map has so many cells");
-    }
-    if (state.block_state != ISAL_BLOCK_FINISH && state.avail_out == block.size() && state.avail_in == 0) {
-      throw ConfigError(path + ": is cut off: the compressed part has no end");
-    }
-  }
-  return out;
-}
 
 /// The double with the shortest decimal text of a float: 0.05, not 0.05000000074505806.
 double shortestDecimal(float value) {
@@ -159,8 +132,8 @@ class GridmapReader {
 }  // namespace
 
 OccupancyGrid readGridmap(const std::string& bytes, const std::string& path, const OccupancyThresholds& thresholds) {
-  const bool is_compressed = bytes.starts_with("\x1f\x8b");
-  return GridmapReader(is_compressed ? inflated(bytes, path) : bytes, path).read(thresholds);
+  const auto unpacked = unpackedMap(bytes, path, kMaxBytes);
+  return GridmapReader(unpacked ? *unpacked : bytes, path).read(thresholds);
 }
 
 }  // namespace robosim

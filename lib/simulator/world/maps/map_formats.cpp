@@ -26,6 +26,7 @@ std::vector<std::string> warningsOf(const OccupancyGrid& grid, MapFormat format)
   };
   const std::string check = format == MapFormat::ros_yaml  ? "; check its occupied_thresh, free_thresh and negate"
                             : format == MapFormat::picture ? "; check the threshold and negate of its <map>"
+                            : format == MapFormat::octomap ? "; check the z_min and z_max of its <map>"
                                                            : "; check the threshold of its <map>";
   std::vector<std::string> warnings;
   if (lacks(Occupancy::occupied)) warnings.push_back("has no occupied cell, and so no walls" + check);
@@ -71,6 +72,13 @@ FloorPlan readMapFile(const std::string& name, const FileProvider& files, const 
     case MapFormat::gridmap:
       grid = readGridmap(files.read(name), path, reading.thresholds);
       break;
+    case MapFormat::simple_map:
+      grid = readSimpleMap(files.read(name), path, reading.pixel_m > 0 ? reading.pixel_m : kSimpleMapCell_m,
+                           reading.thresholds);
+      break;
+    case MapFormat::octomap:
+      grid = readOctomap(files.read(name), path, reading.slice);
+      break;
     case MapFormat::ros_yaml:
       grid = readRosMap(name, files, reading);
       break;
@@ -100,6 +108,8 @@ std::vector<std::filesystem::path> filesOf(const std::filesystem::path& map) {
 
 }  // namespace
 
-void useMapFormats() { setMapReaders({.read = readMapFile, .files = filesOf}); }
+MapReaders mapReadersOfAllFormats() { return {.read = readMapFile, .files = filesOf}; }
+
+void useMapFormats() { setMapReaders(mapReadersOfAllFormats()); }
 
 }  // namespace robosim

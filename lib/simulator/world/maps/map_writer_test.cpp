@@ -255,7 +255,7 @@ TEST(RosMapWriter, WritesTheFormatOfMapServer) {
 }
 
 /// The tree as read by octomap.
-std::unique_ptr<octomap::OcTree> readOctomap(const std::string& bytes, OctomapForm form) {
+std::unique_ptr<octomap::OcTree> octreeIn(const std::string& bytes, OctomapForm form) {
   std::istringstream in(bytes);
   if (form == OctomapForm::probabilities) {
     return std::unique_ptr<octomap::OcTree>(dynamic_cast<octomap::OcTree*>(octomap::AbstractOcTree::read(in)));
@@ -280,7 +280,7 @@ TEST(OctomapWriter, AgreesWithALoopOverAllSolidsVoxelByVoxel) {
     const MapExtent extent{voxels_m[rng.below(3)], {0.2, 0.2 + rng.uniform(0.1, 2)}};
     const auto solids = startSolids(world);
     const auto form = rng.below(2) ? OctomapForm::binary : OctomapForm::probabilities;
-    const auto tree = readOctomap(toOctomap(world, extent, form, [](double) {}), form);
+    const auto tree = octreeIn(toOctomap(world, extent, form, [](double) {}), form);
     ASSERT_TRUE(tree);
     EXPECT_EQ(tree->getResolution(), extent.cell_m);
     const double v = extent.cell_m;
@@ -304,7 +304,7 @@ TEST(OctomapWriter, AgreesWithALoopOverAllSolidsVoxelByVoxel) {
 TEST(OctomapWriter, MergesLargeUniformSpaces) {
   World world = emptyWorld({-12.8, 12.8, -12.8, 12.8});
   const auto tree =
-      readOctomap(toOctomap(world, {0.05, {0, 1.6}}, OctomapForm::binary, [](double) {}), OctomapForm::binary);
+      octreeIn(toOctomap(world, {0.05, {0, 1.6}}, OctomapForm::binary, [](double) {}), OctomapForm::binary);
   EXPECT_EQ(tree->getNumLeafNodes(), 16u * 16u) << "of 1.6 m, not 512 × 512 × 32 of 5 cm";
 }
 

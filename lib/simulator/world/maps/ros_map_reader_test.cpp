@@ -20,6 +20,20 @@ TEST(RosMap, ReadsItsPictureRelativeToItsFolder) {
   EXPECT_EQ(grid.map_from_grid, mrpt::math::TPose2D(-1.5, 2, 0));
 }
 
+TEST(RosMap, ReadsPicturesInJpegAndBmp) {
+  // Blocks of 8 × 8 pixels, which JPEG keeps: black, white.
+  cv::Mat picture(8, 16, CV_8UC3, cv::Scalar(0, 0, 0));
+  picture(cv::Rect(8, 0, 8, 8)).setTo(cv::Scalar(255, 255, 255));
+  for (const std::string ending : {".jpg", ".bmp", ".png"}) {
+    std::vector<unsigned char> bytes;
+    cv::imencode(ending, picture, bytes);
+    const OccupancyGrid grid =
+        readFrom({{"lab/a.yaml", rosYaml("a" + ending)}, {"lab/a" + ending, {bytes.begin(), bytes.end()}}});
+    const std::string row = "########........\n";
+    EXPECT_EQ(drawn(grid), row + row + row + row + row + row + row + row) << ending;
+  }
+}
+
 TEST(RosMap, SupportsRotationNegationScaleAndRawModes) {
   const auto yaml = [](const std::string& end) {
     return "image: /abs/a.pgm\nresolution: 1e-1\norigin: [1, 2, 0.5]\noccupied_thresh: 0.6\nfree_thresh: 0.2\n" + end;

@@ -16,10 +16,29 @@ namespace {
 using Lines = std::vector<std::string>;
 using mrpt::math::TPose2D;
 
+/// The tree of .bt from its root down to two voxels below the origin: each level has two bytes, two bits for each of
+/// the children, which are numbered by x + 2 y + 4 z.
+std::string voxelsBelowOrigin() {
+  std::string tree("\x0f\0", 2);   // the root's children 0 and 1, on both sides of x = 0
+  for (const int last : {7, 6}) {  // child 7 is the upper corner, 6 that with the lowest x
+    for (int level = 1; level < 15; ++level) {
+      const auto bits = static_cast<unsigned>(3 << (2 * last));
+      tree += {static_cast<char>(bits & 0xff), static_cast<char>(bits >> 8)};
+    }
+    const auto leaf = static_cast<unsigned>((last == 7 ? 2 : 1) << (2 * last));
+    tree += {static_cast<char>(leaf & 0xff), static_cast<char>(leaf >> 8)};
+  }
+  return tree;
+}
+
+/// Voxels of 0.5 m: one with x from -0.5 to 0 is occupied, one with x from 0 to 0.5 is free; both up to z = 0.
+const std::string kVoxels = "# Octomap OcTree binary file\nid OcTree\nsize 3\nres 0.5\ndata\n" + voxelsBelowOrigin();
+
 const FileTexts kFiles{{"lab.pgm", "P2 3 2 255  0 205 254  254 254 0"},
                        {"maps/lab.yaml", rosYaml("../lab.pgm")},
                        {"maps/../lab.pgm", "P2 3 2 255  0 205 254  254 254 0"},
                        {"lab.gridmap", gridmapBytes(mrpt::maps::COccupancyGridMap2D(0, 1, 0, 1, 0.25f))},
+                       {"voxels.bt", kVoxels},
                        {"home.map",
                         "2D-Map\nCairn: RobotHome 1000 2000 90 \"\" ICON \"\"\nCairn: Dock 0 0 0 \"\" ICON \"\"\n"
                         "LINES\n-3000 0 5000 0\n0 -1000 0 4000\n"}};
@@ -43,6 +62,23 @@ Lines faultsOfMaps(const std::string& text) {
 std::string worldWithMaps(const std::string& inside) { return "<world><surface>" + inside + "</surface></world>"; }
 std::string robot(const std::string& name, const std::string& more = "") {
   return "<object><shape><robot><model>scout</model><name>" + name + "</name>" + more + "</robot></shape></object>";
+}
+
+TEST(WorldMap, IsASliceOfVoxelsBetweenTheGivenHeights) {
+  const World world = parsedWithMaps(worldWithMaps("<map file='voxels.bt' z_min='-0.3' z_max='-0.1' x='2'/>"));
+  EXPECT_EQ(world.maps[0].reading.slice, (HeightSpan{-0.3, -0.1}));
+  EXPECT_EQ(world.bounds, (Bounds2D{1.5, 2.5, -0.5, 0}));
+  EXPECT_EQ(world.maps[0].plan.occupied, (std::vector<CellRectangle>{{0, 0, 1, 1}}));
+  EXPECT_EQ(parsedWithMaps(toXml(world)), world);
+  const std::string at = "some/a.xml:1: ";
+  EXPECT_EQ(faultsOfMaps(worldWithMaps("<map file='voxels.bt' z_min='1' z_max='1'/>")),
+            Lines{at + "<map z_max=\"1\">: is not above z_min, 1 m; fix one of them"});
+  EXPECT_EQ(faultsOfMaps(worldWithMaps("<map file='voxels.bt' threshold='1'/>")),
+            Lines{at + "<map>: unknown attribute threshold=\"1\"; accepted here are: color, direction, file, height, "
+                       "unknown, x, y, z_max, z_min"});
+  EXPECT_EQ(faultsOfMaps(worldWithMaps("<map file='voxels.bt'/>")),
+            Lines{at + "<map file=\"voxels.bt\">: some/voxels.bt: has no voxels between 0.1 m and 1 m; they reach from "
+                       "-0.5 m to 0 m: write a world with z_min and z_max in its <map>"});
 }
 
 TEST(WorldMap, IsPlacedByTheWorldFile) {
@@ -126,10 +162,9 @@ TEST(WorldMap, ReportsFaultsOfItsElementAtTheWorldsLine) {
   EXPECT_EQ(fault("<map/>"), Lines{at + "<map>: <file> is missing; add it"});
   EXPECT_EQ(fault("<map file='none.yaml'/>"),
             Lines{at + "<map file=\"none.yaml\">: some/none.yaml: did not come with the world"});
-  EXPECT_EQ(
-      fault("<map file='lab.gif'/>"),
-      Lines{at + "<map file=\"lab.gif\">: lab.gif: is not a map by its name; maps end in .gridmap, .yaml (of ROS), "
-                 ".png, .jpg, .bmp, .pgm, .ppm, .pbm or .map"});
+  EXPECT_EQ(fault("<map file='lab.gif'/>"),
+            Lines{at + "<map file=\"lab.gif\">: lab.gif: is not a map by its name; maps end in .gridmap, .simplemap, "
+                       ".bt, .ot, .yaml (of ROS), .png, .jpg, .bmp, .pgm, .ppm, .pbm or .map"});
   EXPECT_EQ(fault("<map file='lab.pgm'/>"), Lines{at + "<map>: <resolution> is missing; add it"});
   EXPECT_EQ(fault("<map file='lab.pgm' resolution='nan'/>"),
             Lines{at + "<map resolution=\"nan\">: must be a finite number; write a number there"});
@@ -138,10 +173,31 @@ TEST(WorldMap, ReportsFaultsOfItsElementAtTheWorldsLine) {
   EXPECT_EQ(fault("<map file='maps/lab.yaml' resolution='1'/>"),
             Lines{at + "<map>: unknown attribute resolution=\"1\"; accepted here are: color, direction, file, height, "
                        "map_server, unknown, x, y"});
-  EXPECT_EQ(fault("<map file='home.map' height='0'/>"),
-            Lines{at + "<map height=\"0\">: must be above 0; drop it for the default, 1"});
+  EXPECT_EQ(fault("<map file='home.map' height='-1'/>"),
+            Lines{at + "<map height=\"-1\">: must be at least 0; drop it for the default, 1"});
   EXPECT_EQ(fault("<map file='lab.gridmap' unknown='perhaps'/>"),
             Lines{at + "<map unknown=\"perhaps\">: is unknown; accepted are: free, occupied"});
+}
+
+TEST(WorldMap, WithoutHeightIsAPictureOnTheFloor) {
+  useMapFormats();
+  const FileTexts files{{"track.pbm", "P1\n2 1\n0 1\n"}};
+  const auto read = [&](const std::string& text) {
+    ErrorList errors;
+    World world = parseWorld(text, "a.xml", makeProvider("a.xml", files), errors);
+    EXPECT_EQ(errors.errors(), Lines{});
+    return world;
+  };
+  const auto track = [](const std::string& height) {
+    return "<world><surface><map file='track.pbm' resolution='0.5' height='" + height + "'/></surface></world>";
+  };
+  const World world = read(track("0"));
+  EXPECT_TRUE(world.maps[0].isFloor());
+  EXPECT_EQ(world.maps[0].plan.occupiedCells(), 1u);
+  EXPECT_TRUE(startSolids(world).empty());
+  EXPECT_EQ(world.bounds, (Bounds2D{0, 1, 0, 0.5}));
+  EXPECT_EQ(startSolids(read(track("0.2"))).size(), 1u);
+  EXPECT_TRUE(read(toXml(world)).maps[0].isFloor());
 }
 
 TEST(WorldMap, ReportsFaultsOfItsFileAtTheFilesLine) {
