@@ -32,9 +32,12 @@ const start = (...args) => {
 const pageOf = async (program) => (await program.says(/page of the run: (\S+)/))[1];
 
 before(async () => {
-  // A crate that nothing moves, and one that robots push.
+  // A crate that nothing moves, and a puck that robots push. Ann wanders between two walls: nothing that is dragged meets her.
+  const wall = (name, x) => `<object><shape><primitive><cube><name>${name}</name><x>${x}</x><y>0</y><z>0.25</z>
+      <length>0.1</length><width>6</width><height>0.5</height><color>0.6 0.6 0.6</color></cube></primitive></shape></object>`;
   writeFileSync(file('world.xml'), `<world><surface>
     <size><xmin>-4</xmin><xmax>4</xmax><ymin>-3</ymin><ymax>3</ymax></size>
+    ${wall('West wall', -1.4)}${wall('East wall', 1.4)}
     <object><shape><primitive><cube><name>Crate</name><x>2</x><y>2</y><z>0.25</z>
       <length>0.6</length><width>0.6</width><height>0.5</height><color>0.72 0.53 0.3</color></cube></primitive></shape></object>
     <object><shape><primitive><cylinder><name>Puck</name><x>-2</x><y>2</y><z>0.1</z>
