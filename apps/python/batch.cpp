@@ -305,14 +305,8 @@ void step(PythonBatch& of, const py::object& actions, py::array observations, py
 py::list picturesOf(const PythonBatch& of) {
   py::list all;
   for (const ObservedPicture& picture : of.batch().pictures()) {
-    const auto& [has_rgb, has_depth, has_identity] = picture.camera.layers;
-    py::list layers;
-    for (const auto& [is_there, layer] :
-         {std::pair(has_rgb, "rgb"), {has_depth, "depth"}, {has_identity, "identity"}}) {
-      if (is_there) layers.append(layer);
-    }
-    all.append(py::make_tuple(toPython(picture.name), picture.camera.height_px, picture.camera.width_px, layers,
-                              picture.range_max_m));
+    all.append(py::make_tuple(toPython(picture.name), picture.camera.height_px, picture.camera.width_px,
+                              picture.camera.layers.names(), picture.range_max_m));
   }
   return all;
 }

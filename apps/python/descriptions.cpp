@@ -64,15 +64,7 @@ void bindSensorInfo(py::module_& module) {
           "image_rate_hz", [](const SensorInfo& sensor) { return sensor.camera.rate_hz; },
           "Of a camera or blob finder: pictures per second of simulated time; 0 of other sensors.")
       .def_property_readonly(
-          "image_layers",
-          [](const SensorInfo& sensor) {
-            const auto& [has_rgb, has_depth, has_identity] = sensor.camera.layers;
-            py::list layers;
-            if (has_rgb) layers.append("rgb");
-            if (has_depth) layers.append("depth");
-            if (has_identity) layers.append("identity");
-            return py::tuple(layers);
-          },
+          "image_layers", [](const SensorInfo& sensor) { return py::tuple(py::cast(sensor.camera.layers.names())); },
           "Of a ray-cast camera: what its pictures contain, some of 'rgb', 'depth', 'identity'; () of other sensors.")
       .def_property_readonly(
           "value_names",

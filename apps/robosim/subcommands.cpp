@@ -15,11 +15,11 @@ const Subcommand* subcommandNamed(std::string_view name) {
 }
 
 SubcommandLibrary libraryFor(const Subcommand& subcommand, int argc, char** argv) {
-  if (subcommand.name != std::string_view("run")) return subcommand.library;
+  if (subcommand.name != std::string_view("run")) return subcommand.contained_in;
   if (hasOption(kViewOption, argc, argv)) return SubcommandLibrary::viewing;
   const bool is_served =
       hasOption(kFoxgloveOption, argc, argv) || hasOption(kRos2Option, argc, argv) || hasOption(kWebOption, argc, argv);
-  return is_served ? SubcommandLibrary::serving : subcommand.library;
+  return is_served ? SubcommandLibrary::serving : subcommand.contained_in;
 }
 
 const char* partFor(SubcommandLibrary library) {

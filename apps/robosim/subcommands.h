@@ -32,7 +32,7 @@ enum class SubcommandLibrary {
 struct Subcommand {
   const char* name;
   const char* help;
-  SubcommandLibrary library;
+  SubcommandLibrary contained_in;
 };
 
 /// All subcommands, in the order of the help text. They are divided among libraries by what they need, so that each

@@ -107,15 +107,15 @@ class Learned(robosim.Controller):
         robot.drive(float(speed) * robot.speed_max_mps, float(turn) * robot.turn_max_radps)
 
 
-def seconds_to_gold(seed, controller):
-    """Simulated time until the robot's edge is as near to the gold's as winning requires; infinite after the time limit."""
-    world = robosim.World.generate("maze", seed=seed, **MAZE)
+def seconds_to_gold(world, seed, controller, limit_s):
+    """Simulated time until the robot's edge is as near to the gold's as winning requires; infinite after the time limit.
+    `controller` is the name of one, or a function that makes one."""
     gold = next(one for one in world.objects if one.heat_celsius > 0)
     robot = world.robots[0]
     reach_m = WIN_DISTANCE_M + gold.size_m[0] / 2 + robot.radius_m
     chosen = dict(controller=controller) if isinstance(controller, str) else dict(controllers={robot.name: controller()})
     with robosim.Simulation(world, seed=seed, **chosen) as simulation:
-        while simulation.time_s < TIME_LIMIT_S:
+        while simulation.time_s < limit_s:
             simulation.step()
             if np.hypot(*(simulation.poses[0, :2] - gold.pose[:2])) <= reach_m:
                 return simulation.time_s
@@ -129,7 +129,8 @@ def evaluate(weights, inputs, mazes):
     print(f"\n{mazes} other mazes, one robot, {TIME_LIMIT_S} s:\n\n"
           "| controller | found | median time to the gold [s] | 90 % [s] |\n|---|---|---|---|")
     for label, controller in controllers.items():
-        times = np.sort([seconds_to_gold(seed, controller) for seed in seeds])
+        times = np.sort([seconds_to_gold(robosim.World.generate("maze", seed=seed, **MAZE), seed, controller, TIME_LIMIT_S)
+                         for seed in seeds])
         median, most = (f"{times[int(np.ceil(share * len(times))) - 1]:.1f}" for share in (0.5, 0.9))
         print(f"| {label} | {np.isfinite(times).mean():.0%} | {median} | {most} |", flush=True)
 

@@ -5,13 +5,14 @@
 
 A robot with a ray-cast camera of 64 × 64 pixels stands somewhere in a room with boxes and a golden cylinder. The policy is a
 small network: the colours of the picture, averaged over blocks of pixels, to speed and turn rate. It learns by the evolution
-strategy of learn_gold.py. Requires NumPy."""
+strategy of learn_gold.py, which must lie in the same folder. Requires NumPy."""
 import argparse
 import time
 
 import numpy as np
 
 import robosim
+from learn_gold import seconds_to_gold
 
 HALF_M = 4  # half of the room's side
 BOXES = 6
@@ -130,27 +131,13 @@ class Learned(robosim.Controller):
         robot.drive(float(self.action[0]) * robot.speed_max_mps, float(self.action[1]) * robot.turn_max_radps)
 
 
-def seconds_to_gold(seed, controller):
-    """Simulated time until the robot has found the gold; infinite after the time limit."""
-    world = room(seed)
-    chosen = dict(controller=controller) if isinstance(controller, str) else dict(controllers={"R": controller()})
-    gold = next(one for one in world.objects if one.heat_celsius > 0)
-    reach_m = 0.5 + gold.size_m[0] / 2 + world.robots[0].radius_m  # the win distance of world files is 0.5 m
-    with robosim.Simulation(world, seed=seed, **chosen) as simulation:
-        while simulation.time_s < TIME_LIMIT_S:
-            simulation.step()
-            if np.hypot(*(simulation.poses[0, :2] - gold.pose[:2])) <= reach_m:
-                return simulation.time_s
-    return np.inf
-
-
 def evaluate(weights, rooms):
     seeds = range(FIRST_TEST_SEED, FIRST_TEST_SEED + rooms)
     untrained = np.random.default_rng(1).normal(0, 0.05, Policy.size()).astype(np.float32)
     controllers = {"untrained": lambda: Learned(untrained), "gold_finder, with the heat only": "gold_finder", "learned": lambda: Learned(weights)}
     print(f"\n{rooms} other rooms, {TIME_LIMIT_S} s:\n\n| controller | found | median time to the gold [s] |\n|---|---|---|")
     for label, controller in controllers.items():
-        times = np.sort([seconds_to_gold(seed, controller) for seed in seeds])
+        times = np.sort([seconds_to_gold(room(seed), seed, controller, TIME_LIMIT_S) for seed in seeds])
         print(f"| {label} | {np.isfinite(times).mean():.0%} | {times[(len(times) - 1) // 2]:.1f} |", flush=True)
 
 

@@ -29,12 +29,12 @@ void take(std::string_view& bytes, std::vector<T>& layer, std::size_t count) {
 
 }  // namespace
 
-std::string PictureLayers::text() const {
-  std::string all;
+std::vector<const char*> PictureLayers::names() const {
+  std::vector<const char*> names;
   for (const auto& [is_there, name] : {std::pair(rgb, "rgb"), {depth, "depth"}, {identity, "identity"}}) {
-    if (is_there) all += (all.empty() ? "" : " ") + std::string(name);
+    if (is_there) names.push_back(name);
   }
-  return all;
+  return names;
 }
 
 std::vector<std::uint8_t> RawPicture::viewedColors() const {

@@ -18,8 +18,8 @@ struct PictureLayers {
 
   bool any() const { return rgb || depth || identity; }
   std::size_t bytesPerPixel() const { return (rgb ? 3u : 0u) + (depth ? 4u : 0u) + (identity ? 4u : 0u); }
-  /// As in files: "rgb depth".
-  std::string text() const;
+  /// As in files, in the order of the pictures: {"rgb", "depth"}.
+  std::vector<const char*> names() const;
 };
 
 /// Maximum width and height of an image [pixels], which JPEG files permit.

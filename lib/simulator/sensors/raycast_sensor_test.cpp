@@ -28,7 +28,7 @@ TEST(RaycastSensor, ReportsItsLayersAndRange) {
   const SensorInfo& info = camera->info();
   EXPECT_EQ(info.kind, SensorKind::camera);
   EXPECT_EQ(info.camera.layers, (PictureLayers{true, true, false}));
-  EXPECT_EQ(info.camera.layers.text(), "rgb depth");
+  EXPECT_EQ(info.camera.layers, (PictureLayers{.rgb = true, .depth = true}));
   EXPECT_EQ(info.range_max_m, 7);
   EXPECT_EQ(sensorFrom("<camera model='raycast'/>")->info().camera.layers, (PictureLayers{true, false, false}));
   EXPECT_FALSE(sensorFrom("<camera/>")->info().camera.isRaycast());
