@@ -3,6 +3,7 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -52,18 +53,22 @@ TEST(MpiBenchGold, WritesTheSameReportOnAnyNumberOfRanks) {
   }
 }
 
-/// Each run takes long enough that most are missing when the first is in the journal.
-int endedRuns() { return isVerifying() ? 40 : 16; }
-std::string longBench(const fs::path& report) {
-  return "bench gold maze_20x20 --controller random_walk --runs " + std::to_string(endedRuns()) +
-         (isVerifying() ? " --time 1000" : " --time 500") + " --report " + quoted(report);
+/// Of each of the two controllers.
+int runsPerController() { return isVerifying() ? 20 : 4; }
+
+/// First runs of random_walk, then runs that wait for a signal where the environment has ROBOSIM_TEST_WAITS: how fast
+/// mpirun forwards the signal, a second later, does not matter.
+std::string benchThatWaits(const fs::path& report) {
+  return "bench gold worlds/small_maze.xml --plugin " ROBOSIM_TEST_PLUGIN
+         " --controller random_walk --controller waiting_walk --time 60 --runs " +
+         std::to_string(runsPerController()) + " --report " + quoted(report);
 }
 
 /// The report of all its runs, made by one process once for all tests.
 const std::map<std::string, std::string>& wholeReport() {
   static const auto report = [] {
     const TemporaryDirectory folder;
-    const Ended alone = runProgram(longBench(folder.path()) + " --threads 2");
+    const Ended alone = runProgram(benchThatWaits(folder.path()) + " --threads 2");
     EXPECT_EQ(alone.exit_code, 0) << alone.err;
     return reportOf(folder.path());
   }();
@@ -75,48 +80,50 @@ int runsIn(const fs::path& journal) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 1;  // the first line is the plan
 }
 
-void waitForARun(StartedProgram& mpirun, const fs::path& journal) {
-  mpirun.waitForFile(journal);
-  while (mpirun.isRunning() && runsIn(journal) < 1) std::this_thread::yield();
+/// Starts it on two ranks, each of which notes its process in a file pidRANK, and waits until a run is in the journal.
+std::unique_ptr<StartedProgram> startThatWaits(const fs::path& folder, const fs::path& report) {
+  fs::create_directories(report);
+  auto mpirun = std::make_unique<StartedProgram>(
+      ROBOSIM_MPIRUN,
+      std::vector<std::string>{"-n", "2", "-x", "ROBOSIM_TEST_WAITS=1", "/bin/sh", "-c",
+                               "echo $$ > " + quoted(folder / "pid") + "$OMPI_COMM_WORLD_RANK; exec '" ROBOSIM_PROGRAM
+                               "' " + benchThatWaits(report)});
+  const auto journal = report / "journal.jsonl";
+  mpirun->waitForFile(journal);
+  while (mpirun->isRunning() && runsIn(journal) < 1) std::this_thread::yield();
+  return mpirun;
+}
+
+/// Only runs that do not wait have ended, and the others complete the report.
+void expectToBeCompleted(const fs::path& report) {
+  const auto journal = report / "journal.jsonl";
+  EXPECT_FALSE(fs::exists(report / "index.html"));
+  EXPECT_GE(runsIn(journal), 1);
+  EXPECT_LE(runsIn(journal), runsPerController());
+  const std::string before = textOf(journal);
+  const Ended resumed = benchOnRanks(3, benchThatWaits(report) + " --resume");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(textOf(journal).substr(0, before.size()), before) << "no finished run is made again";
+  EXPECT_EQ(reportOf(report), wholeReport());
 }
 
 TEST(MpiBenchGold, CompletesTheSameReportAfterAFailedRank) {
   const auto folder = emptyFolder(), report = folder / "killed";
-  fs::create_directories(report);
-  StartedProgram mpirun(ROBOSIM_MPIRUN, {"-n", "2", "/bin/sh", "-c",
-                                         // Each rank notes its process.
-                                         "echo $$ > '" + (folder / "pid").string() + "'$OMPI_COMM_WORLD_RANK; exec '" +
-                                             ROBOSIM_PROGRAM + "' " + longBench(report)});
-  waitForARun(mpirun, report / "journal.jsonl");
+  const auto mpirun = startThatWaits(folder, report);
   pid_t worker = 0;
   std::ifstream(folder / "pid1") >> worker;
   ASSERT_GT(worker, 1);
   ::kill(worker, SIGKILL);
-  const Ended ended = mpirun.wait();
-  EXPECT_NE(ended.exit_code, 0);
-  EXPECT_FALSE(fs::exists(report / "index.html"));
-  const Ended resumed = benchOnRanks(3, longBench(report) + " --resume");
-  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_EQ(reportOf(report), wholeReport());
+  EXPECT_NE(mpirun->wait().exit_code, 0);
+  expectToBeCompleted(report);
 }
 
 TEST(MpiBenchGold, CompletesTheSameReportAfterCtrlC) {
-  const auto report = emptyFolder() / "interrupted";
-  fs::create_directories(report);
-  // The shell becomes mpirun, which receives the signal as from a terminal.
-  StartedProgram mpirun("/bin/sh", {"-c", "exec " ROBOSIM_MPIRUN " -n 2 " ROBOSIM_PROGRAM " " + longBench(report)});
-  const auto journal = report / "journal.jsonl";
-  waitForARun(mpirun, journal);
-  mpirun.interrupt();
-  EXPECT_NE(mpirun.wait().exit_code, 0);
-  EXPECT_FALSE(fs::exists(report / "index.html"));
-  EXPECT_GE(runsIn(journal), 1);
-  EXPECT_LT(runsIn(journal), endedRuns());
-  const std::string before = textOf(journal);
-  const Ended resumed = benchOnRanks(3, longBench(report) + " --resume");
-  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_EQ(textOf(journal).substr(0, before.size()), before) << "no finished run is made again";
-  EXPECT_EQ(reportOf(report), wholeReport());
+  const auto folder = emptyFolder(), report = folder / "interrupted";
+  const auto mpirun = startThatWaits(folder, report);
+  mpirun->interrupt();
+  EXPECT_NE(mpirun->wait().exit_code, 0);
+  expectToBeCompleted(report);
 }
 
 TEST(MpiBenchGold, ReportsAFullDiskOnceAndContinues) {

@@ -115,7 +115,7 @@ TEST(MpiRun, ReportsInvalidArgumentsAndFilesOnce) {
 
 TEST(MpiRun, EndsOnAllRanksWithTheErrorOfAController) {
   const Ended ended =
-      runOnRanks(2, "run worlds/open_100.xml --controller failing_at_the_end --plugin " ROBOSIM_FAILING_PLUGIN);
+      runOnRanks(2, "run worlds/open_100.xml --controller failing_at_the_end --plugin " ROBOSIM_TEST_PLUGIN);
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(countOf("its controller failing_at_the_end threw an exception: lost the flock (on rank 1)", ended.err), 1u)
       << ended.err;
@@ -132,7 +132,7 @@ TEST(MpiRun, EndsOnAllRanksWithTheErrorOfASensorAndACompleteRecording) {
     <sensors><failing_sensor/><heat range_max_m="3"/><odometry/></sensors></robot>)";
   std::ofstream(folder / "failing.xml") << R"(<world><surface><size xmin="-5" xmax="5" ymin="-5" ymax="5"/>
     <scatter count="3"><robot model="failing" name="R" controller="random_walk"/></scatter></surface></world>)";
-  const std::string run = "run " + quoted(folder / "failing.xml") + " --plugin " ROBOSIM_FAILING_PLUGIN " --record ";
+  const std::string run = "run " + quoted(folder / "failing.xml") + " --plugin " ROBOSIM_TEST_PLUGIN " --record ";
   const Ended alone = runProgram(run + quoted(folder / "alone.rawlog"));
   const Ended ended = runOnRanks(2, run + quoted(folder / "ranks.rawlog"));
   EXPECT_EQ(alone.exit_code, 2) << alone.err;

@@ -1,8 +1,13 @@
-// A controller and a sensor that fail on the last robot of a world, which is not on rank 0.
+// A controller and a sensor that fail on the last robot of a world, which is not on rank 0, and a controller that waits
+// for a signal.
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
+#include "base/interrupt.h"
+#include "maze/controllers.h"
 #include "run/plugin.h"
 
 namespace {
@@ -32,6 +37,20 @@ struct FailingSensor : robosim::Sensor {
   robosim::SensorInfo info_;
 };
 
+/// A random walk. Where the environment has ROBOSIM_TEST_WAITS, its first step ends only after a signal that ends the
+/// program.
+struct WaitingWalk : robosim::Controller {
+  explicit WaitingWalk(const robosim::ControllerSetup& setup)
+      : walk_(robosim::controllers().make("random_walk", setup)) {}
+  void step(robosim::Robot& robot) override {
+    const bool waits = std::getenv("ROBOSIM_TEST_WAITS") != nullptr;
+    while (waits && robosim::Interrupt::signal() == 0) std::this_thread::yield();
+    walk_->step(robot);
+  }
+  bool hasDrawnRandomNumbers() const override { return walk_->hasDrawnRandomNumbers(); }
+  std::unique_ptr<robosim::Controller> walk_;
+};
+
 }  // namespace
 
 ROBOSIM_PLUGIN(registry) {
@@ -39,6 +58,10 @@ ROBOSIM_PLUGIN(registry) {
       {"failing_at_the_end", "Throws an exception in step 5 of the last robot.", {}, {}, [](const auto&, const auto&) {
          return std::make_unique<FailingAtTheEnd>();
        }});
+  registry.controllers.add({"waiting_walk", "Walks at random, and waits for a signal if asked to.",
+                            robosim::controllers().typeOf("random_walk").needs, {}, [](const auto& setup, const auto&) {
+                              return std::make_unique<WaitingWalk>(setup);
+                            }});
   registry.sensors.push_back({"failing_sensor", "Measures nothing, and throws an exception in step 5.", false,
                               [](robosim::XmlReader&, const robosim::Mount&) -> std::unique_ptr<robosim::Sensor> {
                                 return std::make_unique<FailingSensor>();
