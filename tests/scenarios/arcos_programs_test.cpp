@@ -31,12 +31,26 @@ namespace command = arcos::command;
 using arcos::encodeCommand;
 using boost::asio::ip::tcp;
 
+/// The address that a server announces after this text, at a port that the system has chosen: "127.0.0.1:41234".
+std::string announcedAfter(const std::string& text, StartedProgram& server) {
+  server.waitForError(text);
+  const std::string log = server.error();
+  const auto at = log.find(text) + text.size();
+  return log.substr(at, log.find('\n', at) - at);
+}
+
+/// Connects to such an address.
+void connectTo(const std::string& address, tcp::socket& socket) {
+  const int port = std::stoi(address.substr(address.rfind(':') + 1));
+  socket.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
+}
+
 TEST(ArcosPrograms, OnAMapAreRepeatedFromTheRecordingAndTheMap) {
   const auto rawlog = emptyFolder() / "run.rawlog";
-  StartedProgram server({"arcos", "maps/office.map", "-r", "p3dx", "-r", "p3at:Tom", "--port", "18421", "--listen",
+  StartedProgram server({"arcos", "maps/office.map", "-r", "p3dx", "-r", "p3at:Tom", "--port", "0", "--listen",
                          "127.0.0.1:0", "--speed", "20", "--record", rawlog.string()});
-  server.waitForError("robot Tom (p3at) for ARCOS programs on 127.0.0.1:18422");
-  StartedProgram robot({"robot", "--arcos", "tcp:127.0.0.1:18422", "--controller", "wander"});
+  const std::string address = announcedAfter("robot Tom (p3at) for ARCOS programs on ", server);
+  StartedProgram robot({"robot", "--arcos", "tcp:" + address, "--controller", "wander"});
   robot.waitForError("connected to MobileSim (p3at)");
   robot.interrupt();
   EXPECT_EQ(robot.wait().exit_code, 0);
@@ -54,9 +68,9 @@ TEST(ArcosPrograms, LoadMapsThatLieBesideTheOneInUse) {
   }
   std::ofstream(folder / "no.map") << "2D-Map\nLINES\n1 2 3\n";
   StartedProgram server(
-      {"arcos", (folder / "a.map").string(), "--port", "18441", "--listen", "127.0.0.1:0", "--speed", "20"});
-  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18441");
-  const auto channel = openChannel("tcp:127.0.0.1:18441");
+      {"arcos", (folder / "a.map").string(), "--port", "0", "--listen", "127.0.0.1:0", "--speed", "20"});
+  const std::string address = announcedAfter("robot Robot1 (p3dx) for ARCOS programs on ", server);
+  const auto channel = openChannel("tcp:" + address);
   ArcosClient client;
   arcos::PacketReader reader;
   const auto receive = [&] {
@@ -109,23 +123,23 @@ TEST(ArcosPrograms, LoadMapsThatLieBesideTheOneInUse) {
 
 TEST(ArcosPrograms, EachGetARobotThatIsAddedForThemAndAreRepeatedFromTheRecording) {
   const auto rawlog = emptyFolder() / "run.rawlog";
-  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "18431", "--listen", "127.0.0.1:0",
+  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "0", "--listen", "127.0.0.1:0",
                          "--speed", "20", "--record", rawlog.string()});
-  server.waitForError("up to 3 robots, one for each ARCOS program on 127.0.0.1:18431");
+  const std::string address = announcedAfter("up to 3 robots, one for each ARCOS program on ", server);
   std::vector<std::unique_ptr<StartedProgram>> programs;
   for (const char* name : {"Robot1", "Robot2", "Robot3"}) {
     programs.push_back(std::make_unique<StartedProgram>(
-        std::vector<std::string>{"robot", "--arcos", "tcp:127.0.0.1:18431", "--controller", "wander"}));
+        std::vector<std::string>{"robot", "--arcos", "tcp:" + address, "--controller", "wander"}));
     server.waitForError(std::string("robot ") + name + ": connected");
   }
-  StartedProgram fourth({"robot", "--arcos", "tcp:127.0.0.1:18431", "--controller", "wander"});
+  StartedProgram fourth({"robot", "--arcos", "tcp:" + address, "--controller", "wander"});
   server.waitForError("all 3 robots have a program or cannot enter");
   EXPECT_NE(fourth.wait().exit_code, 0);
   for (const auto& program : programs) {
     program->interrupt();
     EXPECT_EQ(program->wait().exit_code, 0);
   }
-  StartedProgram next({"robot", "--arcos", "tcp:127.0.0.1:18431", "--controller", "wander"});
+  StartedProgram next({"robot", "--arcos", "tcp:" + address, "--controller", "wander"});
   next.waitForError("connected to MobileSim (p3dx)");
   next.interrupt();
   EXPECT_EQ(next.wait().exit_code, 0);
@@ -138,9 +152,9 @@ TEST(ArcosPrograms, EachGetARobotThatIsAddedForThemAndAreRepeatedFromTheRecordin
 
 TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
   const auto folder = emptyFolder();
-  StartedProgram server({"arcos", "maps/office.map", "--port", "18411", "--listen", "127.0.0.1:0"});
-  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18411");
-  StartedProgram robot({"robot", "--arcos", "tcp:127.0.0.1:18411", "--controller", "wander", "--record",
+  StartedProgram server({"arcos", "maps/office.map", "--port", "0", "--listen", "127.0.0.1:0"});
+  const std::string address = announcedAfter("robot Robot1 (p3dx) for ARCOS programs on ", server);
+  StartedProgram robot({"robot", "--arcos", "tcp:" + address, "--controller", "wander", "--record",
                         (folder / "run.rawlog").string(), "--arcos-log", (folder / "arcos.log").string()});
   robot.waitForError("connected to MobileSim (p3dx)");
   waitUntil("some cycles are logged", [&] { return textOf(folder / "arcos.log").size() > 50000; });
@@ -166,12 +180,12 @@ TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
 TEST(ArcosPrograms, GetRobotsOfTheirOwnInARunThatCanBeRepeated) {
   const auto folder = emptyFolder();
   const std::string recording = (folder / "run.rawlog").string();
-  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "18413", "--listen", "127.0.0.1:0",
+  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "0", "--listen", "127.0.0.1:0",
                          "--record", recording});
-  server.waitForError("up to 3 robots, one for each ARCOS program on 127.0.0.1:18413");
+  const std::string address = announcedAfter("up to 3 robots, one for each ARCOS program on ", server);
   const auto start = [&](const std::string& name) {
     auto robot = std::make_unique<StartedProgram>(std::vector<std::string>{
-        "robot", "--arcos", "tcp:127.0.0.1:18413", "--controller", "wander", "--arcos-log", (folder / name).string()});
+        "robot", "--arcos", "tcp:" + address, "--controller", "wander", "--arcos-log", (folder / name).string()});
     robot->waitForError("connected to MobileSim (p3dx)");
     return robot;
   };
@@ -196,12 +210,12 @@ TEST(ArcosPrograms, GetRobotsOfTheirOwnInARunThatCanBeRepeated) {
 // The program drives 0.2 m and is placed back at its start.
 TEST(ArcosPrograms, ThatPlaceTheirRobotMakeARunThatIsRepeated) {
   const auto rawlog = emptyFolder() / "run.rawlog";
-  StartedProgram server({"arcos", "maps/office.map", "--port", "18431", "--listen", "127.0.0.1:0", "--speed", "5",
+  StartedProgram server({"arcos", "maps/office.map", "--port", "0", "--listen", "127.0.0.1:0", "--speed", "5",
                          "--record", rawlog.string()});
-  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18431");
+  const std::string address = announcedAfter("robot Robot1 (p3dx) for ARCOS programs on ", server);
   boost::asio::io_context io;
   tcp::socket socket(io);
-  socket.connect({boost::asio::ip::address_v4::loopback(), 18431});
+  connectTo(address, socket);
   arcos::PacketReader reader;
   const auto send = [&](const std::string& bytes) { boost::asio::write(socket, boost::asio::buffer(bytes)); };
   const auto next = [&] {
@@ -216,7 +230,10 @@ TEST(ArcosPrograms, ThatPlaceTheirRobotMakeARunThatIsRepeated) {
     next();
   }
   send(encodeCommand(command::open, 1) + encodeCommand(command::vel, 200));
-  for (std::optional<arcos::Sip> sip; !sip || sip->x < 400;) sip = arcos::decodeSip(next());  // units of 0.485 mm
+  for (std::optional<arcos::Sip> sip; !sip || sip->x < 400;) {  // units of 0.485 mm
+    sip = arcos::decodeSip(next());
+    send(encodeCommand(command::pulse));  // else it stops after 2 s, which a slow machine may take
+  }
   send(arcos::encode(command::sim_reset) + encodeCommand(command::stop));
   for (std::optional<arcos::Sip> sip; !sip || sip->is_moving;) sip = arcos::decodeSip(next());
   socket.close();
@@ -231,12 +248,12 @@ TEST(ArcosPrograms, ThatPlaceTheirRobotMakeARunThatIsRepeated) {
 // The program turns the camera 45° to the right, and asks where it is until it is there.
 TEST(ArcosPrograms, ThatTurnACameraMakeARunThatIsRepeated) {
   const auto rawlog = emptyFolder() / "run.rawlog";
-  StartedProgram server({"arcos", "maps/office.map", "-r", "p3dx_ptz", "--port", "18437", "--listen", "127.0.0.1:0",
+  StartedProgram server({"arcos", "maps/office.map", "-r", "p3dx_ptz", "--port", "0", "--listen", "127.0.0.1:0",
                          "--speed", "5", "--record", rawlog.string()});
-  server.waitForError("robot Robot1 (p3dx_ptz) for ARCOS programs on 127.0.0.1:18437");
+  const std::string address = announcedAfter("robot Robot1 (p3dx_ptz) for ARCOS programs on ", server);
   boost::asio::io_context io;
   tcp::socket socket(io);
-  socket.connect({boost::asio::ip::address_v4::loopback(), 18437});
+  connectTo(address, socket);
   arcos::PacketReader reader;
   const auto send = [&](const std::string& bytes) { boost::asio::write(socket, boost::asio::buffer(bytes)); };
   const auto next = [&] {
@@ -302,10 +319,8 @@ TEST(ArcosPrograms, DriveRobotsInPlaceOfAControllerOfTheRunWithArcosAll) {
   auto with_all = serve;
   with_all.emplace_back("--arcos-all");
   StartedProgram all(with_all);
-  all.waitForError("for ARCOS programs on 127.0.0.1:");
-  const std::string log = all.error(), says = "for ARCOS programs on ";
-  const auto at = log.find(says) + says.size();
-  StartedProgram robot({"robot", "--arcos", "tcp:" + log.substr(at, log.find('\n', at) - at), "--controller", "still"});
+  const std::string address = announcedAfter("for ARCOS programs on ", all);
+  StartedProgram robot({"robot", "--arcos", "tcp:" + address, "--controller", "still"});
   robot.waitForError("connected to MobileSim");
 }
 
