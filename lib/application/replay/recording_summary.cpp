@@ -225,8 +225,11 @@ ReplayResult summarise(const ReplayArguments& arguments) {
   RawlogReader reader(arguments.rawlog, RawlogReader::Access::sequential, arguments.threads);
   Counting counting(arguments);
   Progress progress;
-  while (const auto observation = reader.next()) {
+  while (true) {
+    const auto observation = reader.next();
+    // Also at the end of a pipe, for which it has waited.
     if (interrupt.isRequested()) failInterrupted(counting.selection().duration());
+    if (!observation) break;
     counting.add(*observation, reader);
     if (progress.due()) progress.show(withCommas(reader.entries()) + " entries …");
   }
