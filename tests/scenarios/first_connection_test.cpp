@@ -15,17 +15,19 @@ namespace {
 
 constexpr const char* kLine = " yet; waiting up to ";
 
-/// An address at which nothing listens.
+/// An address at which nothing listens. It has an IP address of this process alone, so that other programs, to which
+/// the system gives free ports of 127.0.0.1, do not get its port before the test uses it.
 std::string unusedAddress() {
+  constexpr in_addr_t kNetwork = 0x7f010000, kHosts = 0xffff;  // 127.1.0.0/16
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_addr.s_addr = htonl(kNetwork | (static_cast<in_addr_t>(getpid()) & kHosts));
   socklen_t size = sizeof address;
   EXPECT_EQ(bind(socket, reinterpret_cast<const sockaddr*>(&address), size), 0);
   EXPECT_EQ(getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size), 0);
   close(socket);
-  return "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  return std::string(inet_ntoa(address.sin_addr)) + ":" + std::to_string(ntohs(address.sin_port));
 }
 
 /// Starts a client, then, when it waits, the environment. @return result of the client
@@ -82,7 +84,7 @@ TEST(FirstConnection, CtrlCEndsTheWait) {
 
 TEST(FirstConnection, FailsAfterItsTimeout) {
   const std::string address = unusedAddress();
-  const Ended ended = runProgram("control " + address + " status --connect-timeout 0.2");
+  const Ended ended = runProgram("control " + address + " status --connect-timeout 2");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(countOf(kLine, ended.err), 1u) << ended.err;
   EXPECT_NE(ended.err.find("robosim control status: no environment answers at " + address), std::string::npos)
