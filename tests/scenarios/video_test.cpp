@@ -246,12 +246,19 @@ TEST(Video, ReportsAFullDisk) {
 
 TEST(Video, ShowsALiveRunUntilItsEnd) {
   const auto folder = emptyFolder();
-  Serving serving({"--paused", "--controller", "wander", "--speed", "10", "--time", "20"}, "worlds/opho2_1.xml");
+  Serving serving({"--paused", "--controller", "wander", "--speed", "10"}, "worlds/opho2_1.xml");
   StartedProgram program(
-      {"view", serving.address(), "--size", "320x240", "--fps", "10", "--offscreen", (folder / "run.mp4").string()});
+      {"view", serving.address(), "--size", "320x240", "--fps", "50", "--offscreen", (folder / "run.mp4").string()});
   ControlPanel panel({.address = serving.address()});
   waitUntil("the viewer is connected", [&] { return !program.isRunning() || panel.status().viewers() > 0; });
   panel.start();
+  // The encoder writes the first of its frames after it has received many, during which the robots move.
+  waitUntil("frames are written", [&] {
+    std::error_code none;
+    const auto bytes = fs::file_size(folder / "run.mp4.part", none);
+    return !program.isRunning() || (!none && bytes > 0);
+  });
+  panel.stop();
   const Ended view = program.wait();
   ASSERT_EQ(view.exit_code, 0) << view.err;
   const DecodedVideo video = decodeVideo(folder / "run.mp4");

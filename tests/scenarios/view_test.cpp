@@ -183,7 +183,7 @@ TEST(View, OpensAWindowAndClosesOnQ) {
   const Screen screen;
   StartedProgram view({"view", hall.string(), "--size", "648x684"});  // 648 x 648 above the toolbar
   // Independent of the window's position, a blue square of 120 px appears.
-  const int blue = screen.waitForPixels(12000, bluesIn, view);
+  const int blue = screen.waitForPixels(120 * 120 - 1000, bluesIn, view);
   EXPECT_NEAR(blue, 120 * 120, 1000) << view.error();
   screen.act(Screen::keys("q"));
   const Ended ended = view.wait();

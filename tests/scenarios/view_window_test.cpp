@@ -57,7 +57,7 @@ class Window {
  public:
   explicit Window(const std::vector<std::string>& arguments) : view_(arguments) {
     screen_.waitForPixels(2000, bluesIn, view_);
-    start_ = last_ = settled();
+    start_ = last_ = settled({});
   }
 
   /// The first picture.
@@ -66,18 +66,20 @@ class Window {
   cv::Mat after(const std::string& keys) { return afterDoing(Screen::keys(keys)); }
   cv::Mat afterDoing(const std::string& what) {
     const cv::Mat before = last_;
+    const auto begin = Clock::now();
     screen_.act(what);
     const cv::Mat seen = screen_.waitFor([&](const cv::Mat& each) { return !areSame(each, before); }, view_);
-    if (!areSame(seen, before)) return last_ = settled();
+    if (!areSame(seen, before)) return last_ = settled(Clock::now() - begin);
     ADD_FAILURE() << what << " changes nothing; " << view_.error();
     return before;
   }
   /// Whether the part above the bar becomes equal to this picture.
   bool comesToShow(const cv::Mat& expected, const std::string& what) {
+    const auto begin = Clock::now();
     screen_.act(what);
     last_ = screen_.waitFor([&](const cv::Mat& seen) { return areSame(picturePart(seen), expected); }, view_);
     const bool shows = areSame(picturePart(last_), expected);
-    if (shows) last_ = settled();
+    if (shows) last_ = settled(Clock::now() - begin);
     return shows;
   }
   /// Result of the program after these actions.
@@ -89,6 +91,7 @@ class Window {
     view_.interrupt();
     return view_.wait();
   }
+  void waitForError(const std::string& text) { view_.waitForError(text); }
   std::string error() const { return view_.error(); }
   int quit() {
     screen_.act(Screen::keys("q"));
@@ -96,16 +99,19 @@ class Window {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   /// The picture when it has stopped changing, for as long as a window takes for several repaints.
-  cv::Mat settled() {
-    using Clock = std::chrono::steady_clock;
+  /// @param reaction in which the picture first changed: longer on a slow machine
+  cv::Mat settled(Clock::duration reaction) {
+    const auto unchanged = std::max<Clock::duration>(std::chrono::milliseconds(150), reaction);
     cv::Mat last = screen_.shot();
     Clock::time_point since = Clock::now();
     screen_.waitFor(
         [&](const cv::Mat& seen) {
           if (!areSame(seen, last)) since = Clock::now();
           last = seen;
-          return Clock::now() - since > std::chrono::milliseconds(150);
+          return Clock::now() - since > unchanged;
         },
         view_);
     return last;
@@ -229,7 +235,9 @@ TEST(ViewWindow, PrintsWhyARecordingEndsEarly) {
   fs::copy_file(recordedHall(), rawlog);
   fs::resize_file(rawlog, fs::file_size(rawlog) / 2);
   Window window(viewOf(rawlog));
-  EXPECT_EQ(countOf("robosim view: " + rawlog.string() + ": ends early", window.error()), 1u) << window.error();
+  const std::string remark = "robosim view: " + rawlog.string() + ": ends early";
+  window.waitForError(remark);
+  EXPECT_EQ(countOf(remark, window.error()), 1u) << window.error();
   EXPECT_EQ(window.quit(), 0);
 }
 
