@@ -41,7 +41,7 @@ class TwoServedRobots {
 
  private:
   static std::vector<std::string> with(std::vector<std::string> options) {
-    options.insert(options.end(), {"--wait-for-robots", "--paused", "--step-deadline", "600"});
+    options.insert(options.end(), {"--wait-for-robots", "--paused"});
     return options;
   }
   Serving serving_;
@@ -102,7 +102,7 @@ TEST(LostRobot, IsNamedInTheSummaryAndInTheRecording) {
   two.killPioneer();
   two.control("step 7");
   two.startPioneerAgain();
-  two.program().waitForError("Pioneer1 (ipv4:");
+  two.program().waitForError("): connected", 3);
   two.control("step 1");
   two.control("stop");
   const Ended ended = two.program().wait();
@@ -165,7 +165,8 @@ void expectEndOfStaleRobots(bool tls) {
   stale.waitForError("reconnecting");  // and attempts to connect are refused
 
   StartedProgram next(
-      with({"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20"},
+      with({"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20",
+            "--step-deadline", "600"},
            of_server));
   const Ended ended = stale.wait();
   EXPECT_EQ(ended.exit_code, 2);

@@ -149,9 +149,9 @@ std::string StartedProgram::error() const {
   return err_;
 }
 
-void StartedProgram::waitFor(const std::string& stream, const std::string& text) {
+void StartedProgram::waitFor(const std::string& stream, const std::string& text, std::size_t times) {
   std::unique_lock lock(mutex_);
-  const auto is_there = [&] { return stream.find(text) != std::string::npos; };
+  const auto is_there = [&] { return countOf(text, stream) >= times; };
   const bool is_over = has_output_.wait_for(lock, kLongestWait, [&] { return is_there() || is_all_read_; });
   if (is_there()) return;
   ADD_FAILURE() << "the program " << (is_over ? "ended without saying '" : "has not said for 5 minutes '") << text

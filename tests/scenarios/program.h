@@ -45,11 +45,11 @@ class StartedProgram {
   bool isRunning();
   void interrupt();  ///< like Ctrl-C
   void signal(int number);
-  /// Waits until standard output, or standard error, contains this text; fails the test if the program ends before, or
-  /// after kLongestWait.
+  /// Waits until standard output, or standard error, contains this text a number of times; fails the test if the
+  /// program ends before, or after kLongestWait.
   ///@{
-  void waitForOutput(const std::string& text) { waitFor(out_, text); }
-  void waitForError(const std::string& text) { waitFor(err_, text); }
+  void waitForOutput(const std::string& text) { waitFor(out_, text, 1); }
+  void waitForError(const std::string& text, std::size_t times = 1) { waitFor(err_, text, times); }
   ///@}
   /// Waits until a file exists, as above.
   void waitForFile(const std::filesystem::path&);
@@ -62,7 +62,7 @@ class StartedProgram {
  private:
   void start(const std::string& program, const std::vector<std::string>& arguments);
   void readOutput();
-  void waitFor(const std::string& stream, const std::string& text);
+  void waitFor(const std::string& stream, const std::string& text, std::size_t times);
   void waitForFiles(const std::filesystem::path& folder, const std::function<bool()>& is_there);
 
   pid_t process_ = -1;
