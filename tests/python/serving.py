@@ -13,7 +13,8 @@ class Serving:
         with open(file, "w", encoding="utf-8") as world:
             world.write(text)
         program = os.path.join(os.environ["ROBOSIM_PREFIX"], "bin", "robosim")
-        self._program = subprocess.Popen([program, "serve", file, "--listen", ":0", "--wait-for-robots", "--json", *options],
+        self._program = subprocess.Popen([program, "serve", file, "--listen", ":0", "--wait-for-robots", "--json",
+                                          "--step-deadline", "600", *options],
                                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         said = ""
         for line in self._program.stderr:

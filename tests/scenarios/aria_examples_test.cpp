@@ -76,7 +76,7 @@ TEST_F(AriaExamples, TeleopRefusesASecondRobot) {
 TEST_F(AriaExamples, DriveARobotOfAServerAsInProcess) {
   StartedProgram serve(installed_->program().string(),
                        {"serve", (installed_->folder() / "room.xml").string(), "--listen", ":0", "--wait-for-robots",
-                        "--time", "120", "--json"});
+                        "--step-deadline", "600", "--time", "120", "--json"});
   serve.waitForError("listening on ");
   const std::string log = serve.error();
   const auto at = log.find("listening on ") + 13;

@@ -35,7 +35,6 @@ class BadInput : public testing::Test {
   static ServedWorld::Options options() {
     ServedWorld::Options options;
     options.robots_elsewhere = true;
-    options.server.step_deadline = std::chrono::minutes(1);  // longer than the test
     return options;
   }
 

@@ -334,11 +334,12 @@ TEST(Faults, SilentClientIsDisconnectedAfterTenSeconds) {
 TEST(Faults, SilentMachineIsDetectedAtBothEnds) {
   ManualClock clock;
   ServedWorld::Options options = pausedMaze(clock);
-  options.server.keepalive = 100ms;
+  constexpr auto kKeepalive = 500ms;  // an answer that takes as long ends a connection that is not silent
+  options.server.keepalive = kKeepalive;
   ServedWorld world(options);
   FaultProxy line(world.port());
   ConnectOptions connect_options{.address = line.address()};
-  connect_options.keepalive = 100ms;
+  connect_options.keepalive = kKeepalive;
   NetworkHardware pioneer(connect_options, {"Pioneer1"});
   line.stopForwarding();
   world.waitForLog("robot Pioneer1 (ipv4:");
@@ -349,7 +350,7 @@ TEST(Faults, SilentMachineIsDetectedAtBothEnds) {
 TEST(Faults, SigtermOfARecordingEnvironmentLeavesAReadableRawlog) {
   const auto folder = emptyFolder();
   const auto rawlog = folder / "run.rawlog";
-  Serving serving({"--wait-for-robots", "--json", "--record", rawlog.string(), "--step-deadline", "600"});
+  Serving serving({"--wait-for-robots", "--json", "--record", rawlog.string()});
   const auto robots = startRobots({"Pioneer1", "Scout1"}, serving.address());
   serving.program().waitForError("all robots are connected");
   serving.program().signal(SIGTERM);
@@ -397,7 +398,7 @@ TEST(Faults, NamesWithInvalidUtf8AreReportedBeforeServing) {
 
 TEST(Realtime, KeepsTheLastCommandOfALateRobotAndCountsLateCommands) {
   Serving serving(
-      {"--wait-for-robots", "--json", "--pace", "realtime", "--speed", "20", "--time", "60", "--step-deadline", "600"});
+      {"--wait-for-robots", "--json", "--pace", "realtime", "--speed", "20", "--time", "60"});
   const auto pioneer = startRobots({"Pioneer1"}, serving.address());
   const auto scout = startRobots({"Scout1"}, serving.address());
   serving.program().waitForError("all robots are connected");

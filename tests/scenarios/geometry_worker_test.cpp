@@ -84,7 +84,6 @@ class IdleWorker {
 TEST(GeometryWorker, GetsTheStateAfterStepsWithoutATask) {
   // Of three workers for two robots, the first two to connect get the tasks; the first one is the last to be ready.
   ServedWorld::Options options = paused();
-  options.server.step_deadline = std::chrono::minutes(10);
   ServedWorld world(options);
   IdleWorker first(world.connectOptions());
   const auto second = startWorker(world.connectOptions().address);

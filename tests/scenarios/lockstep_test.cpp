@@ -16,7 +16,6 @@ ServedWorld::Options robotsElsewhere(const std::string& world, std::uint64_t las
   options.world = world;
   options.robots_elsewhere = true;
   options.last_step = last_step;
-  options.server.step_deadline = std::chrono::minutes(10);  // no robot is disconnected on slow machines
   return options;
 }
 

@@ -59,7 +59,6 @@ TEST(Maps, AreSentToRobotsWorkersAndViewers) {
   options.world = file;
   options.robots_elsewhere = true;
   options.last_step = 200;
-  options.server.step_deadline = std::chrono::minutes(10);
   ServedWorld world(options);
   const auto worker = startWorker(world.connectOptions().address);
   world.waitForLog(": ready");

@@ -18,13 +18,10 @@
 namespace robosim {
 namespace {
 
-using namespace std::chrono_literals;
-
 ServedWorld::Options robotsElsewhere(OnLostRobot policy) {
   ServedWorld::Options options = paused();
   options.robots_elsewhere = true;
   options.server.on_lost_robot = policy;
-  options.server.step_deadline = 10min;  // no robot is disconnected on slow machines
   return options;
 }
 

@@ -41,7 +41,7 @@ TEST(ReplayCheck, RepeatsTheRunOfRobotsInOtherProcesses) {
   // gold_finder sends messages; wander is not the controller that the world gives.
   for (const std::string controller : {"gold_finder", "wander"}) {
     const auto rawlog = emptyFolder() / "run.rawlog";
-    Serving serving({"--wait-for-robots", "--time", "60", "--step-deadline", "600", "--record", rawlog.string()});
+    Serving serving({"--wait-for-robots", "--time", "60", "--record", rawlog.string()});
     const auto robots = startRobots({"Pioneer1", "Scout1"}, serving.address(), controller);
     EXPECT_EQ(serving.program().wait().exit_code, 0);
     const Ended mail = runProgram("replay --print --sensor INBOX " + quoted(rawlog));
@@ -54,7 +54,7 @@ TEST(ReplayCheck, RepeatsTheRunOfRobotsInOtherProcesses) {
 
 TEST(ReplayCheck, RepeatsARefusedCheckWinAndComparesThePanOfTheLaser) {
   const auto rawlog = emptyFolder() / "run.rawlog";
-  Serving serving({"--wait-for-robots", "--time", "0.5", "--step-deadline", "600", "--record", rawlog.string()});
+  Serving serving({"--wait-for-robots", "--time", "0.5", "--record", rawlog.string()});
   {
     NetworkHardware robots({.address = serving.address()}, {"Pioneer1", "Scout1"});
     do {

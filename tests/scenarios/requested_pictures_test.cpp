@@ -27,6 +27,7 @@ class ServedCameras {
     ServerOptions options;
     options.listen = ListenAddresses::parse("127.0.0.1:0");
     options.is_paused = is_paused;
+    options.step_deadline = std::chrono::minutes(10);  // no robot is disconnected on slow machines
     server_ = std::make_unique<EnvironmentServer>(options, run_.runInfo());
     thread_ = std::thread([this] { server_->serve(run_, [this] { return must_end_.load(); }); });
   }

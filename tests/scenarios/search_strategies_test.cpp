@@ -26,7 +26,6 @@ TEST_P(SearchStrategies, GiveTheSameRunInOneProcessAndOverANetwork) {
   options.world = kSearchWorld;
   options.robots_elsewhere = true;
   options.last_step = in_one["steps"];
-  options.server.step_deadline = std::chrono::minutes(10);
   ServedWorld world(options);
   const auto names = world.robotNames();
   std::vector<std::unique_ptr<StartedProgram>> robots;

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -22,8 +23,14 @@ class ServedWorld final : private ServedRun {
     bool robots_elsewhere = false;  ///< driven by other processes; otherwise by `controller`
     std::uint64_t last_step = UINT64_MAX;
     std::function<void()> before_preparing = [] {};  ///< called on the thread that builds a loaded world
-    ServerOptions server;                            ///< `listen` and `log` are overwritten
+    /// `listen` and `log` are overwritten. No client is disconnected because a slow machine delays it.
+    ServerOptions server = withStepDeadline(std::chrono::minutes(10));
   };
+  static ServerOptions withStepDeadline(std::chrono::milliseconds deadline) {
+    ServerOptions options;
+    options.step_deadline = deadline;
+    return options;
+  }
   explicit ServedWorld(const Options& options);
   ~ServedWorld() override;  ///< ends the run
 

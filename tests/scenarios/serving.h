@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -6,7 +7,8 @@
 
 namespace robosim {
 
-/// `robosim serve`, listening on a port chosen by the system.
+/// `robosim serve`, listening on a port chosen by the system. Without a --step-deadline it waits for clients as long as
+/// a slow machine may delay them.
 class Serving {
  public:
   explicit Serving(std::vector<std::string> arguments, const std::string& world = "worlds/small_maze.xml")
@@ -24,6 +26,10 @@ class Serving {
  private:
   static std::vector<std::string> words(std::vector<std::string> arguments, const std::string& world) {
     arguments.insert(arguments.begin(), {"serve", world, "--listen", ":0"});
+    const std::string deadline = "--step-deadline";
+    if (std::find(arguments.begin(), arguments.end(), deadline) == arguments.end()) {
+      arguments.insert(arguments.end(), {deadline, "600"});
+    }
     return arguments;
   }
 

@@ -133,7 +133,6 @@ ServedWorld::Options mazeFor60Steps(double check_results) {
   ServedWorld::Options options = paused();
   options.last_step = 60;
   options.server.check_results = check_results;
-  options.server.step_deadline = std::chrono::minutes(10);
   return options;
 }
 
