@@ -92,8 +92,8 @@ void addArcos(CLI::App& program) {
   command->add_option("--start", a->start, "start pose of the first robot, in millimetres and degrees")
       ->type_name("X,Y,HEADING");
   for (const char* name : {"-r", "-R", "--start"}) command->get_option(name)->group("Robots");
-  command->add_option("-p,--port", a->port, "port of the first robot")
-      ->check(wholeNumberIn(1, 65535))
+  command->add_option("-p,--port", a->port, "port of the first robot; 0: the system chooses all")
+      ->check(wholeNumberIn(0, 65535))
       ->capture_default_str();
   command->add_option("--listen-address", a->serve.arcos, "IP address at which programs connect; default 127.0.0.1")
       ->type_name("ADDRESS");
