@@ -10,7 +10,7 @@ import { join, normalize } from 'node:path';
 import { after, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
-import { openBrowser, TIMEOUT_MS } from './browser.mjs';
+import { openBrowser } from './browser.mjs';
 import { FOLDER } from './program.mjs';
 
 const TYPES = { html: 'text/html', css: 'text/css', js: 'text/javascript', json: 'application/json', svg: 'image/svg+xml' };
@@ -38,7 +38,6 @@ after(async () => {
 
 async function open(url) {
   const page = await browser.newPage();
-  page.setDefaultTimeout(TIMEOUT_MS);
   page.problems = [];
   page.on('pageerror', (error) => page.problems.push(error.message));
   page.on('requestfailed', (request) => page.problems.push(request.url()));

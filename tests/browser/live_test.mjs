@@ -9,7 +9,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, TIMEOUT_MS } from './browser.mjs';
+import { openBrowser } from './browser.mjs';
 import { FOLDER, Program, ROBOSIM, TEXT_VIEWER } from './program.mjs';
 import { RawSocket } from './web_socket.mjs';
 
@@ -62,7 +62,6 @@ after(async () => {
 
 async function open(role, { at = url, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
-  context.setDefaultTimeout(TIMEOUT_MS);
   const page = await context.newPage();
   page.problems = [];
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
@@ -437,7 +436,6 @@ test('a page of a recording is whole after its connection was interrupted', asyn
   execFileSync(ROBOSIM, ['run', 'worlds/small_maze.xml', '--time', '5', '--record', file('short.rawlog')], { cwd: FOLDER, stdio: 'pipe' });
   const at = await pageOf(start('view', file('short.rawlog'), '--web', 0));
   const context = await browser.newContext();
-  context.setDefaultTimeout(TIMEOUT_MS);
   // The first connection ends before the whole has arrived.
   let connections = 0;
   await context.routeWebSocket(() => true, (socket) => {

@@ -11,7 +11,7 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { gunzipSync, gzipSync } from 'node:zlib';
 
-import { openBrowser, TIMEOUT_MS } from './browser.mjs';
+import { openBrowser } from './browser.mjs';
 import { FOLDER, ROBOSIM } from './program.mjs';
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -36,7 +36,6 @@ after(async () => {
 // Opens a page; `problems` are its errors and what it loads besides itself.
 async function open(name, { hash = '', ...options } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options });
-  page.setDefaultTimeout(TIMEOUT_MS);
   page.problems = [];
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
   page.on('pageerror', (error) => page.problems.push(error.message));
@@ -390,7 +389,6 @@ test('the reason why a run cannot be shown stays', async () => {
   writeFileSync(file('broken.html'), readFileSync(file('maze.html')));
   changeHead('broken.html', (head) => ({ ...head, format: 99 }));
   const page = await browser.newPage();
-  page.setDefaultTimeout(TIMEOUT_MS);
   await page.clock.install();
   await page.goto(pathToFileURL(file('broken.html')).href);
   const notice = page.locator('#notice').filter({ hasText: 'has format 99' });

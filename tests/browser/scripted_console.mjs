@@ -4,7 +4,7 @@
 import { readFileSync } from 'node:fs';
 import { extname, join } from 'node:path';
 
-import { TIMEOUT_MS } from './browser.mjs';
+import { showsText } from './browser.mjs';
 import { FOLDER } from './program.mjs';
 
 const ORIGIN = 'http://console.test';
@@ -191,7 +191,7 @@ class Script {
     if (!isForced && (this.is_down || this.isSilent) && this.updates > 0) return;
     ++this.updates;
     this.step += 2;
-    const time_s = this.step * 0.02;
+    const time_s = (this.winner ? 6000 : this.step) * 0.02;  // none passes after a win
     const measured = {
       sonar: Array.from({ length: 16 }, (_, i) => (i % 5 === 0 ? 5000 : 900 + 350 * (i % 6))), laser: Array.from({ length: 181 }, (_, i) => Math.round(1800 + 900 * Math.sin(i / 14))),
       camera: null, heat: this.heat ?? 3 + 2 * Math.sin(time_s / 4), bumper: Array(12).fill(0).map((_, i) => (this.is_stalled && i === 6 ? 1 : 0)),
@@ -208,12 +208,19 @@ class Script {
   }
 }
 
+// Waits until the page has received all messages so far: they arrive in their order.
+export async function received(page) {
+  const text = `message ${++received.count}.`;
+  page.script.send({ type: 'note', text, warning: false });
+  await showsText(page, '#notes', text);
+}
+received.count = 0;
+
 // A page in one of STATES, which has drawn two updates. `page.script` changes the state.
 // The states of STATES are shown with details, those of GAME_STATES in the game view.
 // `hasClock`: the page's clock is page.clock (Playwright); `init`: a script that runs before the page's.
 export async function visitScripted(browser, state, { hasClock = false, isGame = false, init, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
-  context.setDefaultTimeout(TIMEOUT_MS);
   const page = await context.newPage();
   page.problems = [];
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));

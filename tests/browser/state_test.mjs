@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
 import { openBrowser } from './browser.mjs';
-import { visitScripted } from './scripted_console.mjs';
+import { received, visitScripted } from './scripted_console.mjs';
 
 let browser;
 before(async () => { browser = await openBrowser(); });
@@ -57,15 +57,18 @@ test('a robot that makes an emergency stop is stopping until it stands', async (
 });
 
 test('a lost console is stated in place of every other cause, and no longer once it answers', async () => {
-  const page = await visitScripted(browser, 'down');
+  const page = await visitScripted(browser, 'down', { hasClock: true });
   await shows(page, 'robot_down');
   page.script.isMute = true;
   await shows(page, 'console_gone');
   assert.equal(await page.textContent('#status'), 'No connection');
   page.script.isMute = false;
   await shows(page, 'robot_down');
+  await page.clock.pauseAt(Date.now() + 60_000);  // so that the page does not connect again before the banner was read
   await page.script.socket.close({ code: 1001, reason: 'the console ends' });
-  await page.waitForFunction(() => document.querySelector('#banner-detail').textContent === 'the console ends');
+  while ((await page.textContent('#banner-detail')) !== 'the console ends') await page.clock.runFor(10);
+  assert.equal((await bannerOf(page)).cause, 'console_gone');
+  await page.clock.resume();
   await shows(page, 'robot_down');  // it has connected again
   await page.context().close();
 });
@@ -114,7 +117,7 @@ test('an operator can read why a robot is down; a driver is not shown it', async
   page.script.may_operate = false;
   page.script.welcome();
   await page.waitForSelector('#banner-details', { state: 'hidden' });
-  assert.equal(await page.getAttribute('#team li[data-robot="Pioneer1"] small', 'title'), 'down');
+  await page.waitForSelector('#team li[data-robot="Pioneer1"] small[title="down"]');
   await page.context().close();
 });
 
@@ -166,27 +169,22 @@ test('values, ranges and lamps are grey 1 s after the last update, and not befor
   await page.clock.pauseAt(Date.now() + 60_000);
   page.script.isSilent = true;
   page.script.sendUpdate({ isForced: true });
-  let since_ms = 0;  // the update was sent
-  const run = async (ms) => {
-    await page.clock.runFor(ms);
-    since_ms += ms;
-  };
-  while (await page.evaluate((step) => document.body.dataset.step !== String(step), page.script.step)) await run(10);
-  await run(60);  // the page looks at ages every 50 ms
-  const drawn_ms = since_ms;
+  await received(page);
+  const LOOKS_MS = 60;  // the page looks at ages every 50 ms
+  await page.clock.runFor(LOOKS_MS);
   const fresh = await look();
   assert.equal(fresh.isStale, false);
-  await run(990 - since_ms);
+  await page.clock.runFor(990 - LOOKS_MS);
   assert.deepEqual(await look(), fresh);
-  await run(drawn_ms + 1050 - since_ms);
+  await page.clock.runFor(10 + LOOKS_MS);
   const stale = await look();
   assert.equal(stale.isStale, true);
   for (const part of ['value', 'heat', 'hudHeat', 'teamHeat', 'radar', 'camera', 'lamp']) assert.notEqual(stale[part], fresh[part], part);
   assert.match(stale.radar, /grayscale/);
   assert.deepEqual([stale.heat, stale.teamHeat], [stale.value, stale.value], 'a hot value is grey, too');
   page.script.sendUpdate({ isForced: true });
-  while (await page.evaluate((step) => document.body.dataset.step !== String(step), page.script.step)) await run(10);
-  await run(60);
+  await received(page);
+  await page.clock.runFor(LOOKS_MS);
   assert.deepEqual(await look(), fresh);
   await page.context().close();
 });
