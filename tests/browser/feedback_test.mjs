@@ -3,8 +3,8 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
-import { visitScripted } from './scripted_console.mjs';
+import { openBrowser, resize, takeControl, visit } from './browser.mjs';
+import { received, visitScripted } from './scripted_console.mjs';
 import { Session } from './session.mjs';
 import { writeTestWorld } from './test_world.mjs';
 
@@ -12,7 +12,6 @@ let browser;
 before(async () => { browser = await openBrowser(); });
 after(async () => { await browser?.close(); });
 
-const nextFrame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const shows = (page, selector, pattern) =>
   page.waitForFunction(([selector, source]) => new RegExp(source).test(document.querySelector(selector).textContent), [selector, pattern.source]);
 
@@ -54,18 +53,26 @@ test('a collision flashes once, vibrates unless switched off, and sounds only if
 
 test('the picture shows heat, latency, and pictures per second', () => withPage('driving', async (page) => {
   await shows(page, '#hud-heat', /^\d\.\d$/);
-  const [bar, gauge] = await page.evaluate(() => ['#hud-heat-bar', '#hud-heat-gauge .meter'].map((id) => document.querySelector(id).getBoundingClientRect().width));
-  const heat = Number(await page.textContent('#heat'));
+  const [bar, gauge, heat] = await page.evaluate(() => [
+    ...['#hud-heat-bar', '#hud-heat-gauge .meter'].map((id) => document.querySelector(id).getBoundingClientRect().width), Number(document.querySelector('#heat').textContent),
+  ]);
   assert.ok(Math.abs(bar / gauge - heat / 10) < 0.1, `${bar} of ${gauge} px for ${heat} of 10`);
   await shows(page, '#latency', /^\d+ ms$/);
   await shows(page, '#fps', /^[1-9]\d* fps$/);
 }));
 
 test("the referee's refusal is shown, and each only once", () => withPage('driving', async (page) => {
+  await page.clock.pauseAt(Date.now() + 60_000);  // a refusal is shown for 5 s
+  await page.waitForSelector('#verdict', { state: 'hidden' });
+  ++page.script.refusals;
+  page.script.sendUpdate();
   await page.waitForSelector('#verdict', { state: 'visible' });
   assert.match(await page.textContent('#verdict'), /Not yet: Pioneer1 is too far from the gold\./);
-  await page.waitForSelector('#verdict', { state: 'hidden' });
-}));
+  await page.clock.runFor(5000);
+  page.script.sendUpdate();
+  await received(page);
+  assert.ok(await page.isHidden('#verdict'));
+}, { hasClock: true }));
 
 test('the radar is a circle in every frame, while the window changes its size', () => withPage('driving', async (page) => {
   await page.evaluate(() => {
@@ -79,9 +86,13 @@ test('the radar is a circle in every frame, while the window changes its size', 
     look();
   });
   for (const [width, height] of [[1280, 800], [1000, 900], [1600, 700], [1300, 1100], [1024, 768], [1920, 1080]]) {
-    await page.setViewportSize({ width, height });
-    await nextFrame(page);
+    await resize(page, [width, height]);
   }
+  // requestAnimationFrame precedes the layout of its frame, so that the drawing's resolution may be that of the frame before.
+  await page.waitForFunction(() => {
+    const [width, height, ...drawn] = window.shapes.at(-1);
+    return drawn[0] === width && drawn[1] === height;
+  });
   // The drawing itself: the outermost ring reaches equally far in all four directions.
   const reach = await page.evaluate(() => {
     const canvas = document.querySelector('#radar');
@@ -94,9 +105,6 @@ test('the radar is a circle in every frame, while the window changes its size', 
   const shapes = await page.evaluate(() => window.shapes);
   assert.ok(new Set(shapes.map(String)).size > 3, 'it has changed its size');
   for (const [width, height] of shapes) assert.ok(Math.abs(width - height) <= 1, `${width} x ${height}`);
-  // requestAnimationFrame precedes the layout of its frame, so that the drawing's resolution may be that of the frame before.
-  const last = shapes.at(-1);
-  assert.deepEqual(last.slice(2), last.slice(0, 2));
 }));
 
 test("a robot without a camera has its ranges in the picture's place, and no empty panel", () => withPage('no camera', async (page) => {

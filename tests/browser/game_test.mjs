@@ -7,7 +7,7 @@ import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, showsText } from './browser.mjs';
+import { openBrowser, resize, showsText } from './browser.mjs';
 import { violations } from './page_geometry.mjs';
 import { pageModule } from './page_module.mjs';
 import { GAME_STATES, visitScripted } from './scripted_console.mjs';
@@ -28,11 +28,6 @@ const SAMPLE = 2;  // sizes of a state
 let browser;
 before(async () => { browser = await openBrowser(); });
 after(async () => { await browser?.close(); });
-
-async function resize(page, [width, height]) {
-  await page.setViewportSize({ width, height });
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-}
 
 async function accessibilityViolations(page) {
   if (!(await page.evaluate(() => Boolean(window.axe)))) await page.evaluate(AXE);
@@ -95,6 +90,7 @@ test('the picture takes at least 55 % of a desktop page, and the full width of a
     return { width: 4 * scale, share: (12 * scale * scale) / (innerWidth * innerHeight) };
   });
   await page.click('#begin');
+  await page.waitForSelector('#invite', { state: 'hidden' });
   for (const size of [[1280, 800], [1366, 768], [1440, 900], [1536, 864], [1600, 900], [1920, 1080], [2560, 1440], [3840, 2160]]) {
     await resize(page, size);
     const { share } = await picture();
@@ -109,7 +105,7 @@ test('the picture takes at least 55 % of a desktop page, and the full width of a
 
 test('the mission is on the first screen until the user drives', async () => {
   const page = await visitScripted(browser, 'mission');
-  assert.ok(await page.isVisible('#invite'));
+  await page.waitForSelector('#invite', { state: 'visible' });
   assert.match(await page.textContent('#invite-text'), /drive where it becomes warmer/);
   page.script.is_still = false;
   await page.keyboard.down('ArrowUp');
@@ -119,7 +115,7 @@ test('the mission is on the first screen until the user drives', async () => {
 });
 
 test('Enter in the name joins the queue with name and team; a visitor who waits may leave', async () => {
-  const page = await visitScripted(browser, 'attract');
+  const page = await visitScripted(browser, 'attract', { hasClock: true });
   const sent = [];
   let isSent = () => {};
   page.script.onMessage = (message) => {
@@ -132,12 +128,15 @@ test('Enter in the name joins the queue with name and team; a visitor who waits 
   });
   await page.fill('#visitor', '  Ada <i> ');
   await page.click('#teams button:text-is("Blue")');
-  await page.press('#visitor', 'Enter');
+  await page.focus('#visitor');
+  await page.clock.pauseAt(Date.now() + 60_000);  // the page takes for the reply what arrives within 2 s, and shows it for a while
+  await page.keyboard.press('Enter');
   await sends('join');
   assert.deepEqual(sent.find(({ type }) => type === 'join'), { type: 'join', name: 'Ada <i>', team: 'Blue' });
   page.script.send({ type: 'note', text: 'The queue is full. Try again in a minute.', warning: true });
   await showsText(page, '#invite-problem', 'The queue is full.');
   assert.ok(await page.isVisible('#invite-problem'));
+  await page.clock.resume();
   page.script.rounds = { ...page.script.rounds, phase: 'driving', visitor: { page: 2, name: '<b>Bea</b>', team: '' }, queue: [{ page: 1, name: 'Ada', team: '' }] };
   page.script.sendGame();
   await showsText(page, '#invite-title', 'You are next');

@@ -7,7 +7,7 @@ import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 
-import { openBrowser } from './browser.mjs';
+import { openBrowser, resize } from './browser.mjs';
 import { violations } from './page_geometry.mjs';
 import { STATES, visitScripted } from './scripted_console.mjs';
 
@@ -24,11 +24,6 @@ const TABS = ['#tab-range', '#tab-team', '#tab-state', '#tab-notes'];
 let browser;
 before(async () => { browser = await openBrowser(); });
 after(async () => { await browser?.close(); });
-
-async function resize(page, [width, height]) {
-  await page.setViewportSize({ width, height });
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-}
 
 // Violations at a size are collected in `all`, so that a failed test lists every one. An answer to CheckWin is displayed for
 // some seconds only.

@@ -9,7 +9,7 @@ import { after, before, test } from 'node:test';
 
 import { openBrowser } from './browser.mjs';
 import { emulateGamepad } from './emulated_gamepad.mjs';
-import { visitScripted } from './scripted_console.mjs';
+import { received, visitScripted } from './scripted_console.mjs';
 
 const EVENTS = Number(process.env.ROBOSIM_EVENTS ?? (process.env.ROBOSIM_VERIFY ? 10_000 : 100));
 // Where fingers press.
@@ -243,13 +243,15 @@ for (const [view, controls] of Object.entries(VIEWS)) test(`${view}: after a sto
       Object.assign(page.script, { holder: 1, isSilent: false });
       page.script.sendTeam();
       page.script.sendUpdate();
-      isEnough = await page.evaluate((events) => spectator.motions > events / 10 && spectator.stops > events / 20, EVENTS);
+      isEnough = await page.evaluate((events) => {
+        const { motions, stops, breaks, hidings, losses } = spectator;
+        return motions > events / 10 && stops > events / 20 && breaks > 0 && hidings > 0 && losses > 0;
+      }, EVENTS);
     }
   }
   const { violations, motions, stops, breaks, hidings, losses } = await page.evaluate(() => window.spectator);
   assert.equal(violations[0] ?? '', '');
-  assert.ok(isEnough, `${motions} motion commands and ${stops} stops were sent`);
-  assert.ok(breaks > 0 && hidings > 0 && losses > 0, `${breaks} breaks, ${hidings} hidings, ${losses} losses of the control lock`);
+  assert.ok(isEnough, `${motions} motion commands and ${stops} stops were sent; ${breaks} breaks, ${hidings} hidings, ${losses} losses of the control lock`);
   await page.context().close();
 });
 
@@ -362,14 +364,15 @@ test('a stop key that was pressed without control is not neutral until it is rel
 test('a paused run does not stop a robot, however long it reports nothing', async () => {
   const page = await visitScripted(browser, 'driving', { hasClock: true });
   await page.clock.pauseAt(Date.now() + 60_000);
+  page.script.isSilent = true;
+  page.script.sendUpdate({ isForced: true });
+  await received(page);
+  await page.clock.runFor(500);
   const sent = [];
   page.script.onMessage = (message) => sent.push(message.type);
-  page.script.sendUpdate({ isForced: true });
-  await page.clock.runFor(500);
   await page.keyboard.down('ArrowUp');
   page.script.sendRun({ phase: 'paused' });
-  page.script.isSilent = true;
-  await page.waitForFunction(() => document.body.dataset.step > 0);
+  await received(page);
   for (let i = 0; i < 40; ++i) {
     page.script.send({ type: 'pulse' });
     await page.clock.runFor(100);

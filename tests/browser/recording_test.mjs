@@ -10,7 +10,7 @@ import { after, before, test } from 'node:test';
 
 import { openBrowser, takeControl, visit } from './browser.mjs';
 import { FOLDER, ROBOSIM } from './program.mjs';
-import { visitScripted } from './scripted_console.mjs';
+import { received, STATES, visitScripted } from './scripted_console.mjs';
 import { Session } from './session.mjs';
 import { writeTestWorld } from './test_world.mjs';
 
@@ -27,8 +27,8 @@ after(async () => {
 
 const titled = (page, title) => page.waitForFunction((title) => document.querySelector('#record-place').title === title, title);
 
-async function withPage(state, act) {
-  const page = await visitScripted(browser, state);
+async function withPage(state, act, options) {
+  const page = await visitScripted(browser, state, options);
   const requests = [];
   page.script.onMessage = (message) => message.type === 'record' && requests.push(message);
   await act(page, requests);
@@ -90,18 +90,22 @@ test('a run that cannot be recorded has no state of recording, and a run that is
   await page.waitForSelector('#record', { state: 'hidden' });
 }));
 
-test('the reason of a failure is shown once on the picture', () => withPage('recording failed', async (page) => {
-  await page.waitForSelector('#record-problem', { state: 'visible' });
-  assert.equal(await page.textContent('#record-problem'), 'The recording could not be changed.');
-  await page.waitForSelector('#record-problem', { state: 'hidden' });
-  page.script.sendRun({ recording: { problem: 'another reason' } });
-  await page.waitForSelector('#record-problem', { state: 'visible' });
-  page.script.sendRun({});  // the next request
-  await page.waitForSelector('#record-problem', { state: 'hidden' });
-  page.script.sendRun({ recording: { state: 'off', failure: 'the disk is full' } });
-  await page.waitForSelector('#record-problem', { state: 'visible' });
-  assert.equal(await page.textContent('#record-problem'), 'The recording has ended early.');
-}));
+test('the reason of a failure is shown once on the picture', () => withPage('driving', async (page) => {
+  await page.clock.pauseAt(Date.now() + 60_000);  // a problem is shown for 8 s
+  const problemOf = async (recording) => {
+    page.script.sendRun({ recording });
+    await received(page);
+    await page.clock.runFor(60);  // the page shows its state every 50 ms
+    return (await page.isVisible('#record-problem')) ? page.textContent('#record-problem') : null;
+  };
+  const { recording } = STATES['recording failed'].run;
+  assert.equal(await problemOf(recording), 'The recording could not be changed.');
+  await page.clock.runFor(8000);
+  assert.equal(await problemOf(recording), null, 'it was shown');
+  assert.equal(await problemOf({ problem: 'another reason' }), 'The recording could not be changed.');
+  assert.equal(await problemOf({}), null, 'the next request');
+  assert.equal(await problemOf({ state: 'off', failure: 'the disk is full' }), 'The recording has ended early.');
+}, { hasClock: true }));
 
 const run = (program, ...args) => execFileSync(program, args, { cwd: FOLDER, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 async function openRun(...serve) {
