@@ -22,14 +22,14 @@ def temporary_folder(test):
     return Path(folder.name).resolve()
 
 
-def run_everything(text, test, prepare=lambda folder: None):
-    """Executes a page as tests/verify/readme.sh does; returns a folder with clone/ and folder/."""
+def run_everything(text, test, prepare=lambda folder: None, bound_s=60):
+    """Executes a page as tests/verify/readme.sh does; returns a folder with clone/ and folder/. bound_s: of commands until Ctrl-C."""
     root = temporary_folder(test)
     for name in ("clone", "folder"):
         (root / name).mkdir()
     prepare(root / "folder")
     (root / "page.md").write_text(text, encoding="utf-8")
-    with (mock.patch("builtins.print"), mock.patch.object(EverythingTutorial, "BOUND_S", 0.2),
+    with (mock.patch("builtins.print"), mock.patch.object(EverythingTutorial, "BOUND_S", bound_s),
           mock.patch.object(EverythingTutorial, "DELAY_S", 0)):
         EverythingTutorial(root / "page.md", root / "clone", root / "folder").run()
     return root
@@ -80,7 +80,7 @@ class RunTutorialTest(unittest.TestCase):
         self.assertEqual((folder / "folder/a").read_text(encoding="utf-8"), f"{folder}/folder\n")
 
     def test_everything_interrupts_commands_that_run_until_ctrl_c(self):
-        folder = run_everything("```sh\necho 1 >a\ntail -f a   # until Ctrl-C\necho 2 >>a\n```\n", self)
+        folder = run_everything("```sh\necho 1 >a\ntail -f a   # until Ctrl-C\necho 2 >>a\n```\n", self, bound_s=0.2)
         self.assertEqual((folder / "folder/a").read_text(encoding="utf-8"), "1\n2\n")
 
     def test_everything_runs_commands_of_several_terminals_at_the_same_time(self):
