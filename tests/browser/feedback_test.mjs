@@ -107,6 +107,28 @@ test('the radar is a circle in every frame, while the window changes its size', 
   for (const [width, height] of shapes) assert.ok(Math.abs(width - height) <= 1, `${width} x ${height}`);
 }));
 
+test('a picture that is decoded after another robot has become the primary is not shown', () => withPage('driving', async (page) => {
+  await page.evaluate(() => {
+    const decode = window.createImageBitmap;
+    window.waiting = [];
+    window.decoded = 0;
+    window.createImageBitmap = async (jpeg) => {
+      await new Promise((done) => window.waiting.push(done));
+      const picture = await decode(jpeg);
+      ++window.decoded;
+      return picture;
+    };
+  });
+  await page.waitForFunction(() => window.waiting.length > 0);
+  page.script.has_camera = false;
+  page.script.welcome();
+  await received(page);
+  await page.evaluate(() => window.waiting.forEach((done) => done()));
+  await page.waitForFunction(() => window.decoded > 0);
+  assert.match(await page.textContent('#no-camera'), /has no camera/);
+  assert.equal(await page.evaluate(() => document.querySelector('#camera').dataset.step), undefined);
+}));
+
 test("a robot without a camera has its ranges in the picture's place, and no empty panel", () => withPage('no camera', async (page) => {
   assert.ok(await page.isHidden('#camera'));
   const [view, range] = await page.evaluate(() => ['.view', '#p-range'].map((part) => { const { x, y, width, height } = document.querySelector(part).getBoundingClientRect(); return { x, y, width, height }; }));

@@ -3,6 +3,7 @@
 export class Camera {
   #next = null;
   #isBusy = false;
+  #resets = 0;
 
   // `onDrawn` is called for each picture
   constructor(canvas, placeholder, onDrawn) {
@@ -14,6 +15,7 @@ export class Camera {
   // `size`: {width_px, height_px}; null for a robot without a camera
   reset(name, size) {
     this.#next = null;
+    ++this.#resets;
     this.#showText(size ? 'No picture yet' : `${name} has no camera. Use its sonar and laser.`);
     this.canvas.width = size?.width_px ?? 320;
     this.canvas.height = size?.height_px ?? 240;
@@ -31,7 +33,12 @@ export class Camera {
       const { jpeg, step } = this.#next;
       this.#next = null;
       try {
+        const before = this.#resets;
         const picture = await createImageBitmap(jpeg);
+        if (before !== this.#resets) {  // it is that of another robot
+          picture.close();
+          continue;
+        }
         const { canvas } = this;
         if (canvas.width !== picture.width || canvas.height !== picture.height) {
           [canvas.width, canvas.height] = [picture.width, picture.height];
