@@ -95,6 +95,13 @@ export const STATES = {
   '200 robots': { robots: 200, has_long_names: true },
 };
 
+// The cause of the banner in states that have one: some are shown a second after the last update.
+const BANNERS = {
+  down: 'robot_down', won: 'won', 'won by another': 'won', 'won, programs ended': 'won', over: 'run_over', 'down, long names': 'robot_down',
+  gone: 'environment_gone', frozen: 'robot_frozen', waiting: 'waiting', paused: 'paused',
+  'game, down, long names': 'robot_down', 'game, gone': 'environment_gone',
+};
+
 class Script {
   constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_over = false, is_silent = false, is_stalled = false, is_stopping = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {}, rounds = null, result = null, best = [], standings = [], heat = null, autonomous = false, is_still = false }) {
     const isSilent = is_silent;
@@ -216,7 +223,7 @@ export async function received(page) {
 }
 received.count = 0;
 
-// A page in one of STATES, which has drawn two updates. `page.script` changes the state.
+// A page in one of STATES, which has drawn an update and shows the state's banner. `page.script` changes the state.
 // The states of STATES are shown with details, those of GAME_STATES in the game view.
 // `hasClock`: the page's clock is page.clock (Playwright); `init`: a script that runs before the page's.
 export async function visitScripted(browser, state, { hasClock = false, isGame = false, init, ...options } = {}) {
@@ -241,6 +248,7 @@ export async function visitScripted(browser, state, { hasClock = false, isGame =
   if (init) await page.addInitScript(init);
   await page.goto(ORIGIN);
   await page.waitForFunction(() => document.body.dataset.step > 0);
+  if (BANNERS[state]) await page.waitForSelector(`#banner[data-cause="${BANNERS[state]}"]:not([hidden])`, { state: 'attached' });
   if (content.has_map) await page.click('#map-toggle');
   if (content.dialog === 'help') await page.click('#help-open');
   if (content.dialog === 'login') {
