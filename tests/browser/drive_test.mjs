@@ -150,6 +150,7 @@ test('switching makes the next robot the primary, and moves the previous one to 
   const names = () => page.$$eval('#team li', (items) => items.map((item) => item.dataset.robot));
   assert.deepEqual(await names(), ['Ann', 'Bob']);
   await pressButton(page, 1, () => shows('#robot-name', 'Bob'));
+  await page.waitForSelector('#team li:first-child[data-robot="Bob"]');
   assert.deepEqual(await names(), ['Bob', 'Ann']);
   await shows('#team li[data-robot="Ann"] small', 'autonomous');
   await shows('#mode', 'driven by you');

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, showsText, visit } from './browser.mjs';
+import { hold, openBrowser, showsText, visit } from './browser.mjs';
 import { emulateGamepad } from './emulated_gamepad.mjs';
 import { Session } from './session.mjs';
 
@@ -42,7 +42,7 @@ async function startsRound(page) {
 const isAtStart = ({ x, y }) => Math.hypot(x, y) < 0.001;
 
 test('while no visitor drives, the robot explores by itself, and the page shows the mission', async () => {
-  assert.ok(await ada.isVisible('#invite'));
+  await ada.waitForSelector('#invite', { state: 'visible' });
   assert.equal(await ada.textContent('#invite-title'), 'Find the gold!');
   assert.ok(await ada.isDisabled('#stop'), 'no page has control by being opened');
   await showsText(ada, '#mode', 'explores by itself');
@@ -89,8 +89,7 @@ test('the next visitor is called, and drives after Start; the former one gets th
   await bea.click('#begin');
   await startsRound(bea);
   await showsText(ada, '#invite-title', 'You are next');
-  await bea.keyboard.down('ArrowDown');
-  await session.truth.until('Ann', ({ x }) => x < -0.05);
+  await hold(bea, 'ArrowDown', session.truth.until('Ann', ({ x }) => x < -0.05));
   await bea.keyboard.up('ArrowDown');
 });
 

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
+import { hold, openBrowser, takeControl, visit } from './browser.mjs';
 import { Session } from './session.mjs';
 
 let world, session, browser, page;
@@ -37,15 +37,12 @@ test('Play again starts the next run, in which the driver wins again', async () 
     await page.click('#check-win');
     await page.waitForSelector('#banner[data-cause="won"]', { state: 'visible' });
     assert.match(await page.textContent('#banner-text'), /^Ann has won after \d+:\d\d\.\d and 0\.0 m\. All robots have halted\.$/, `run ${run}`);
-    const step = await page.evaluate(() => Number(document.body.dataset.step));
-    const isNext = page.waitForFunction((step) => Number(document.body.dataset.step) < step, step);  // from now on, as the run may be fast
     await page.click('#play-again:enabled');
     await page.waitForSelector('#banner', { state: 'hidden' });
-    await isNext;
+    await session.truth.runs(run + 1);
     await takeControl(page);
   }
-  await page.keyboard.down('ArrowDown');
-  await page.waitForFunction(() => document.querySelector('#r-speed').textContent.startsWith('−0') || document.querySelector('#r-speed').textContent.startsWith('-0'));
+  await hold(page, 'ArrowDown', page.waitForFunction(() => /^[−-]0/.test(document.querySelector('#r-speed').textContent)));
   await page.keyboard.up('ArrowDown');
   assert.deepEqual(page.problems, []);
 });

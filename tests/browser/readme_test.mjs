@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
+import { hold, openBrowser, takeControl, visit } from './browser.mjs';
 import { FOLDER, Program, ROBOSIM } from './program.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'robosim_readme_'));
@@ -42,7 +42,8 @@ test('the four commands of README.md drive a robot with a camera', async () => {
     const at = robot.indexOf('--remote-port') + 1;
     const port = robot[at];
     robot[at] = '0';
-    port_of[port] = (await start(robot, '--environment', environment).says(/remote control on \S+:(\d+)/))[1];
+    // The robots stand until they are driven, so that the first one is before no wall and no other robot then.
+    port_of[port] = (await start(robot, '--environment', environment, '--controller', 'still').says(/remote control on \S+:(\d+)/))[1];
   }
   const team = readFileSync(join(FOLDER, remote[1]), 'utf8').replace(/<port>(\d+)</g, (_, port) => {
     assert.ok(port_of[port], `${remote[1]} has port ${port}, which no command opens`);
@@ -55,10 +56,9 @@ test('the four commands of README.md drive a robot with a camera', async () => {
   const page = await visit(browser, url, { name: 'Ada' });
   await takeControl(page);
   await page.waitForFunction(() => document.querySelector('#camera').dataset.step > 0);
-  assert.equal(await page.locator('#team .lamp.up').count(), 3);
+  await page.waitForFunction(() => document.querySelectorAll('#team .lamp.up').length === 3);
   const before_m = await page.evaluate(() => parseFloat(document.querySelector('#r-driven').textContent));
-  await page.keyboard.down('ArrowUp');
-  await page.waitForFunction((before_m) => parseFloat(document.querySelector('#r-driven').textContent) > before_m + 0.3, before_m);
+  await hold(page, 'ArrowUp', page.waitForFunction((before_m) => parseFloat(document.querySelector('#r-driven').textContent) > before_m + 0.3, before_m));
   await page.keyboard.up('ArrowUp');
   assert.deepEqual(page.problems, []);
 });

@@ -222,7 +222,7 @@ test('a link opens its moment, robot, panel and layers, and is copied with L', a
   await page.locator('#plan').focus();
   await page.keyboard.press('ArrowRight');
   await page.keyboard.press('l');
-  const hash = new URLSearchParams(new URL(page.url()).hash.slice(1));
+  const hash = new URLSearchParams((await page.evaluate(() => location.hash)).slice(1));
   assert.equal(hash.get('t'), '12.4');
   assert.equal(hash.get('robot'), 'Scout1');
   assert.equal(hash.get('show'), 'sensors');

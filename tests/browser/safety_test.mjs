@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, beforeEach, afterEach, test } from 'node:test';
 
-import { openBrowser, showsText, takeControl, visit } from './browser.mjs';
+import { hold, openBrowser, showsText, takeControl, visit } from './browser.mjs';
 import { writeTestWorld } from './test_world.mjs';
 import { Session } from './session.mjs';
 
@@ -27,15 +27,14 @@ const shows = (selector, text) => showsText(page, selector, text);
 const stops = (why) => session.robots.Ann.until(({ error }) => error.slice(session.readTo).match(why), `it said ${why}`);
 
 // Ann turns on the spot while the key is held.
-async function hold() {
+async function turn() {
   const { phi } = await session.truth.standstill('Ann');
-  await page.keyboard.down('ArrowLeft');
-  await session.truth.until('Ann', (now) => Math.abs(now.phi - phi) > 0.1);
+  await hold(page, 'ArrowLeft', session.truth.until('Ann', (now) => Math.abs(now.phi - phi) > 0.1));
   session.readTo = session.robots.Ann.error.length;
 }
 
 test('the page is hidden', async () => {
-  await hold();
+  await turn();
   await page.evaluate(() => {
     Object.defineProperty(document, 'hidden', { value: true, configurable: true });
     document.dispatchEvent(new Event('visibilitychange'));
@@ -45,14 +44,14 @@ test('the page is hidden', async () => {
 });
 
 test('the page is closed', async () => {
-  await hold();
+  await turn();
   await page.close();
   await stops(/Ann stops: Ada's page (is hidden|has disconnected)/);  // the reason depends on the browser
   await session.truth.standstill('Ann');
 });
 
 test('the page crashes', async () => {
-  await hold();
+  await turn();
   const debug = await page.context().newCDPSession(page);
   debug.send('Page.crash').catch(() => {});  // the crashed page cannot reply
   await stops(/Ann stops: Ada's page has disconnected/);
@@ -60,7 +59,7 @@ test('the page crashes', async () => {
 });
 
 test('the scripts of the page are suspended', async () => {
-  await hold();
+  await turn();
   const debug = await page.context().newCDPSession(page);
   await debug.send('Debugger.enable');
   await debug.send('Debugger.pause');
@@ -70,7 +69,7 @@ test('the scripts of the page are suspended', async () => {
 });
 
 test('the console is suspended and resumed: the robot stands still until commanded again', async () => {
-  await hold();
+  await turn();
   await page.keyboard.up('ArrowLeft');
   const from = await session.truth.standstill('Ann');
   await page.keyboard.press('+');  // cruises
@@ -82,11 +81,11 @@ test('the console is suspended and resumed: the robot stands still until command
   session.console.signal('SIGCONT');
   await shows('#mode', 'stopped: no message from Ada');
   await session.truth.standstill('Ann', 25);
-  await hold();
+  await turn();
 });
 
 test('the robot is suspended and resumed: it stands still until all inputs were released', async () => {
-  await hold();
+  await turn();
   session.robots.Ann.signal('SIGSTOP');
   await shows('#hint', 'Stopped. Release all keys');
   session.robots.Ann.signal('SIGCONT');
@@ -94,11 +93,11 @@ test('the robot is suspended and resumed: it stands still until all inputs were 
   await session.truth.standstill('Ann', 50);
   await page.keyboard.up('ArrowLeft');
   await page.waitForSelector('#banner', { state: 'hidden' });
-  await hold();
+  await turn();
 });
 
 test('the console ends: the robot stops, and the page reports it and reconnects', async () => {
-  await hold();
+  await turn();
   session.console.signal('SIGKILL');
   await stops(/Ann stops: its remote control has disconnected/);
   await session.truth.standstill('Ann');
@@ -108,7 +107,7 @@ test('the console ends: the robot stops, and the page reports it and reconnects'
   await session.startConsole();
   await takeControl(page);
   await page.waitForSelector('#banner', { state: 'hidden' });
-  await hold();
+  await turn();
 });
 
 test('an unreachable robot is marked, skipped in switching, and reconnected', async () => {

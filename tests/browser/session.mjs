@@ -10,6 +10,7 @@ import { Program, ROBOSIM, TEXT_VIEWER } from './program.mjs';
 class Truth {
   #frames = [];  // {step, robots: {name: {x, y, phi}}}
   #read = 0;
+  #runs = 1;  // those that have begun
 
   constructor(address) {
     this.viewer = new Program(TEXT_VIEWER, [address]);
@@ -36,6 +37,14 @@ class Truth {
     return this.#frames.find(holds);
   }
 
+  // Waits until this many runs have begun.
+  async runs(count) {
+    await this.viewer.until(() => {
+      this.#readOn();
+      return this.#runs >= count;
+    }, `run ${count} began`);
+  }
+
   // Waits until `holds` of a robot's pose: the pose.
   async until(robot, holds) {
     return this.viewer.until(() => {
@@ -60,6 +69,7 @@ class Truth {
     for (const line of this.viewer.output.slice(this.#read, end).split('\n')) {
       const [step, ...robots] = line.split('; ');
       if (!step.startsWith('step ')) continue;
+      if (Number(step.slice(5)) < this.#frames.at(-1)?.step) ++this.#runs;
       this.#frames.push({
         step: Number(step.slice(5)),
         robots: Object.fromEntries(robots.map((text) => {
@@ -110,6 +120,7 @@ export class Session {
     this.ports = ports;
     this.truth = new Truth(this.address);
     this.programs.push(this.truth.viewer);
+    await this.truth.viewer.until(() => this.truth.now, 'its first frame');
     const list = join(this.folder, 'team.xml');
     writeFileSync(list, `<RobotInfo>${robots.map((name, i) => `
       <robot><hostname>127.0.0.1</hostname><port>${ports[name]}</port><name>${name}</name><primary>${i === 0 ? 1 : 0}</primary></robot>`).join('')}

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, showsText, takeControl, visit } from './browser.mjs';
+import { hold, openBrowser, showsText, takeControl, visit } from './browser.mjs';
 import { writeTestWorld } from './test_world.mjs';
 import { Session } from './session.mjs';
 
@@ -55,8 +55,7 @@ test('a viewer token permits watching, a robot token driving', async () => {
   const driver = await come(DRIVER, 'Ada');
   await takeControl(driver);
   const { phi } = await session.truth.standstill('Ann');
-  await driver.keyboard.down('ArrowLeft');
-  await session.truth.until('Ann', (now) => Math.abs(now.phi - phi) > 0.1);
+  await hold(driver, 'ArrowLeft', session.truth.until('Ann', (now) => Math.abs(now.phi - phi) > 0.1));
   await driver.keyboard.up('ArrowLeft');
   for (const page of [viewer, driver]) {
     assert.deepEqual(page.problems, []);

@@ -129,10 +129,12 @@ export class LivePanel {
     if (!fault) this.#edited.clear();
   }
 
-  // Returns why the body was not moved; empty if it was.
+  // Returns why the body was not moved; empty if it was. Can be undone at once: the run executes requests in their order.
   async #move({ name, x, y, heading }, to) {
+    const move = { name, x, y, heading };
+    this.#moves.push(move);
     const fault = await this.#request(name, to);
-    if (!fault) this.#moves.push({ name, x, y, heading });
+    if (fault) this.#moves = this.#moves.filter((each) => each !== move);
     return fault;
   }
 
