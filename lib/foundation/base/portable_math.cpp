@@ -2,8 +2,11 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+
+#include "base/vector_width.h"
 
 namespace robosim::portable {
 namespace {
@@ -25,7 +28,7 @@ constexpr std::array kLog = {0x1.5555555555558p-1, 0x1.99999999952d9p-2, 0x1.249
 
 /// Evaluates two coefficients at a time, which halves the dependency chain of Horner's scheme.
 template <std::size_t n>
-inline double polynomial(const std::array<double, n>& coefficients, double z) {
+[[gnu::always_inline]] inline double polynomial(const std::array<double, n>& coefficients, double z) {
   const double zz = z * z;
   const auto pair = [&](std::size_t i) {
     return i + 1 < n ? coefficients[i] + coefficients[i + 1] * z : coefficients[i];
@@ -52,8 +55,10 @@ constexpr double kPerHalfPi = 0x1.45f306dc9c883p-1;
 /// Adding and subtracting this rounds to a whole number, which the low bits of the sum hold.
 constexpr double kRounder = 0x1.8p52;
 constexpr double kReduced_rad = 1024;
+/// The sine of a smaller angle is the angle, its cosine 1.
+constexpr double kSmall_rad = 0x1p-27;
 
-SinCos nearZero(const Sum& angle_rad) {
+[[gnu::always_inline]] inline SinCos nearZero(const Sum& angle_rad) {
   const double r = angle_rad.high;
   const double z = r * r;
   const double sin = r + (z * r * polynomial(kSin, z) + angle_rad.low * (1 - z / 2));
@@ -64,8 +69,43 @@ SinCos nearZero(const Sum& angle_rad) {
 }
 
 /// @param bit 2 to negate, 0 otherwise
-double negatedIf(std::uint64_t bit, double x) {
+[[gnu::always_inline]] inline double negatedIf(std::uint64_t bit, double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ bit << 62);
+}
+
+/// @param x at most kReduced_rad. The result for numbers below kSmall_rad, whose sign may be lost, is not used.
+[[gnu::always_inline]] inline SinCos sincosReduced(double x) {
+  const double rounded = x * kPerHalfPi + kRounder;
+  const double n = rounded - kRounder;
+  const double first = x - n * kHalfPi1;  // exact (Sterbenz)
+  const double second = n * kHalfPi2;     // exact
+  const double r = first - second;
+  // TwoSum (Knuth 1969): the rounding error of that difference.
+  const double taken = first - r;
+  const double lost = (first - (r + taken)) + (taken - second);
+  const double rest = lost - n * kHalfPi3;
+  const double high = r + rest;
+  const SinCos near = nearZero({high, (r - high) + rest});
+  // The quadrant is unpredictable, so nothing here branches on it.
+  const auto quadrant = std::bit_cast<std::uint64_t>(rounded);
+  const bool swapped = (quadrant & 1) != 0;
+  return {negatedIf(quadrant & 2, swapped ? near.cos : near.sin),
+          negatedIf((quadrant + 1) & 2, swapped ? near.sin : near.cos)};
+}
+
+/// Sines and cosines of angles that need no reduction. @return false if one does: then the results are undefined
+[[gnu::always_inline]] inline bool sincosOfReduced(const double* __restrict angles_rad, std::size_t count,
+                                                   double* __restrict sines, double* __restrict cosines) {
+  std::uint64_t beyond = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = angles_rad[i];
+    const double size = std::abs(x);
+    beyond |= size <= kReduced_rad ? std::uint64_t{0} : std::uint64_t{1};
+    const SinCos reduced = sincosReduced(x);
+    sines[i] = size < kSmall_rad ? x : reduced.sin;
+    cosines[i] = size < kSmall_rad ? 1 : reduced.cos;
+  }
+  return beyond == 0;
 }
 
 /// Table of arctangents of i / 16.
@@ -121,23 +161,18 @@ Sum atanOfQuotient(double y, double x) {
 SinCos sincos(double angle_rad) {
   double x = angle_rad;
   if (!(std::abs(x) <= kReduced_rad)) x = std::remainder(x, kTwoPi);
-  if (std::abs(x) < 0x1p-27) return {x, 1};
-  const double rounded = x * kPerHalfPi + kRounder;
-  const double n = rounded - kRounder;
-  const double first = x - n * kHalfPi1;  // exact (Sterbenz)
-  const double second = n * kHalfPi2;     // exact
-  const double r = first - second;
-  // TwoSum (Knuth 1969): the rounding error of that difference.
-  const double taken = first - r;
-  const double lost = (first - (r + taken)) + (taken - second);
-  const double rest = lost - n * kHalfPi3;
-  const double high = r + rest;
-  const SinCos near = nearZero({high, (r - high) + rest});
-  // The quadrant is unpredictable, so nothing here branches on it.
-  const auto quadrant = std::bit_cast<std::uint64_t>(rounded);
-  const bool swapped = (quadrant & 1) != 0;
-  return {negatedIf(quadrant & 2, swapped ? near.cos : near.sin),
-          negatedIf((quadrant + 1) & 2, swapped ? near.sin : near.cos)};
+  if (std::abs(x) < kSmall_rad) return {x, 1};
+  return sincosReduced(x);
+}
+
+void sincos(std::span<const double> angles_rad, double* sines, double* cosines) {
+  const std::size_t count = angles_rad.size();
+  if (withVectors<sincosOfReduced>(angles_rad.data(), count, sines, cosines)) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [sin, cos] = sincos(angles_rad[i]);
+    sines[i] = sin;
+    cosines[i] = cos;
+  }
 }
 
 double atan2(double y, double x) {

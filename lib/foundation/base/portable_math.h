@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <span>
 
 /// Elementary functions that return the same bits on every processor, with every C library and at every optimisation
 /// level. They use only +, −, ×, ÷, √ and integer operations, each of which IEEE 754 defines exactly, in a fixed order.
@@ -19,6 +20,9 @@ struct SinCos {
 SinCos sincos(double angle_rad);
 inline double sin(double angle_rad) { return sincos(angle_rad).sin; }
 inline double cos(double angle_rad) { return sincos(angle_rad).cos; }
+/// The same, bit for bit, of many angles, in vectors: in a third of the time.
+/// @param sines,cosines as many as angles; not their memory
+void sincos(std::span<const double> angles_rad, double* sines, double* cosines);
 
 /// Angle [rad] of (x, y) from the x axis within [-π, π], within 0.9 ulp (subnormal results: within 1 unit of the
 /// smallest). Signed zeros and infinities as in C (IEC 60559); NaN when either argument is.

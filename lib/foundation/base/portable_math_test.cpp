@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "base/vector_width.h"
 
 namespace robosim::portable {
 namespace {
@@ -45,6 +47,33 @@ TEST(PortableMath, SineAndCosineAreWithinNineTenthsOfAnUlp) {
     ASSERT_LT(worst, 0.9) << "at " << x;
   }
   EXPECT_GT(worst, 0.5);  // the reference has more digits than a double
+}
+
+TEST(PortableMath, SinesAndCosinesOfManyAnglesAreThoseOfEach) {
+  const VectorWidth widest = vector_width;
+  for (const VectorWidth width : {VectorWidth::sse2, VectorWidth::avx2, VectorWidth::avx512}) {
+    if (width > widest) continue;
+    setVectorWidth(width);
+    Rng rng(1);
+    for (std::size_t count = 0; count < 200; ++count) {
+      std::vector<double> angles_rad{0.0, -0.0, 1024, -1024, 1e-9, -1e-310, kPi / 4, -kPi / 2};
+      if (count % 3 == 1) angles_rad.insert(angles_rad.end(), {1025, kInfinity, kNaN, 1e300});
+      angles_rad.resize(std::min(count, angles_rad.size()));
+      while (angles_rad.size() < count) angles_rad.push_back(rng.below(4) == 0 ? anySize(rng, -40, 10) : rng.uniform(-7, 7));
+      std::vector<double> sines(count), cosines(count);
+      sincos(angles_rad, sines.data(), cosines.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto [sin, cos] = sincos(angles_rad[i]);
+        if (std::isnan(sin)) {
+          ASSERT_TRUE(std::isnan(sines[i]) && std::isnan(cosines[i]));
+          continue;
+        }
+        ASSERT_EQ(bitsOf(sines[i]), bitsOf(sin)) << "at " << angles_rad[i];
+        ASSERT_EQ(bitsOf(cosines[i]), bitsOf(cos)) << "at " << angles_rad[i];
+      }
+    }
+  }
+  setVectorWidth(widest);
 }
 
 TEST(PortableMath, SineOfTheDoublesNearestToMultiplesOfPiKeepsItsDigits) {

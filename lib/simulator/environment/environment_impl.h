@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -16,6 +17,7 @@
 #include "environment/referee.h"
 #include "environment/robot_groups.h"
 #include "environment/run_digest.h"
+#include "geometry/shapes/chord_batch.h"
 #include "hardware/led_color.h"
 #include "robots/drive_kinematics.h"
 
@@ -248,14 +250,9 @@ struct Environment::Impl {
   void move() {
     move_authorisation.conclude(workers, known, paths, state.stalled);
     if (!motions.empty()) moveObjects();
-    known.forEach(workers, kRobotChunk, [&](std::size_t i) {
-      const Path& path = paths[i];
-      if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
-      if (!former_motion.empty()) former_motion[i] = state.last_motion[i];
-      state.last_motion[i] = {path.clippedLength(), path.clippedTurn()};
-      state.driven_m[i] += std::abs(path.clippedLength());
-      if (state.stalled[i]) state.speed_mps[i] = 0;  // blocked: starts from rest in the next step
-      if (hasOtherDrive(i)) noteOtherMotion(i);
+    known.forChunks(workers, kRobotChunk, [&](const auto& order, std::size_t begin, std::size_t end) {
+      movePoses(order, begin, end);
+      for (std::size_t k = begin; k < end; ++k) noteMotion(order[k]);
     });
     for (const auto& object : held) {
       if (state.stalled[object.robot]) state.turn_radps[object.robot] = 0;
@@ -268,6 +265,32 @@ struct Environment::Impl {
     state.stalls += workers.reduce(counted.end - counted.begin, std::uint64_t{0}, stalls_of, std::plus<>());
     placeBodies();
     if (!robots_with_gripper.empty()) closeGrippers();
+  }
+
+  /// Moves robots to the ends of their paths.
+  template <typename Order>
+  void movePoses(const Order& order, std::size_t begin, std::size_t end) {
+    static_assert(kRobotChunk <= ChordBatch::kCapacity);
+    std::array<const Path*, kRobotChunk> moved;
+    std::array<mrpt::math::TPose2D*, kRobotChunk> poses;
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Path& path = paths[order[k]];
+      moved[count] = &path;
+      poses[count] = &state.world_from_robot[order[k]];
+      count += path.length_m != 0 || path.turn_rad != 0 ? 1 : 0;
+    }
+    computeEndPoses({moved.data(), count}, {poses.data(), count});
+  }
+
+  /// After a robot has moved along its path.
+  void noteMotion(std::size_t i) {
+    const Path& path = paths[i];
+    if (!former_motion.empty()) former_motion[i] = state.last_motion[i];
+    state.last_motion[i] = {path.clippedLength(), path.clippedTurn()};
+    state.driven_m[i] += std::abs(path.clippedLength());
+    if (state.stalled[i]) state.speed_mps[i] = 0;  // blocked: starts from rest in the next step
+    if (hasOtherDrive(i)) noteOtherMotion(i);
   }
 
   RobotRange everyRobot() const { return {0, fleet().robots.size()}; }

@@ -28,6 +28,13 @@ class KnownRobots {
   auto inOrder(const Use& use) const {
     return is_limited_ ? use(some()) : use(Every{robots_});
   }
+  /// Calls work(order, begin, end) for pieces of that array of at most `chunk` elements, in parallel.
+  template <typename Work>
+  void forChunks(const ParallelExecutor& workers, std::size_t chunk, const Work& work) const {
+    inOrder([&](const auto& order) {
+      workers.forChunks(order.size(), chunk, [&](std::size_t begin, std::size_t end) { work(order, begin, end); });
+    });
+  }
   /// Calls work(robot) for each, in parallel.
   template <typename Work>
   void forEach(const ParallelExecutor& workers, std::size_t chunk, const Work& work) const {

@@ -1,6 +1,9 @@
 #include "environment/placed_bodies.h"
 
 #include <algorithm>
+#include <array>
+
+#include "base/portable_math.h"
 
 namespace robosim {
 
@@ -110,11 +113,21 @@ void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motio
   for (std::size_t k = 0; k < motions.size(); ++k) {
     scene_.place(robot_bodies_.size() + k, {movable_[k].outlineAt(motions[k].world_from_object), movable_[k].heights});
   }
-  known.forEach(workers, kRobotChunk, [&](std::size_t i) {
-    if (state.isAbsent(i)) return scene_.remove(i);
-    const auto& pose = state.world_from_robot[i];
-    if (kept.contains(i)) frames_[i] = PlanarTransform(pose, robot_bodies_[i].heights.z_min_m);
-    scene_.place(i, solidOf(i, pose));
+  known.forChunks(workers, kRobotChunk, [&](const auto& order, std::size_t begin, std::size_t end) {
+    std::array<double, kRobotChunk> heading_rad, sin, cos;
+    const std::size_t count = end - begin;
+    for (std::size_t k = 0; k < count; ++k) heading_rad[k] = state.world_from_robot[order[begin + k]].phi;
+    portable::sincos({heading_rad.data(), count}, sin.data(), cos.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = order[begin + k];
+      if (state.isAbsent(i)) {
+        scene_.remove(i);
+        continue;
+      }
+      const auto& pose = state.world_from_robot[i];
+      if (kept.contains(i)) frames_[i] = PlanarTransform(pose, robot_bodies_[i].heights.z_min_m, {sin[k], cos[k]});
+      scene_.place(i, solidOf(i, pose));
+    }
   });
   if (known.areAll()) {
     scene_.freeze(workers);

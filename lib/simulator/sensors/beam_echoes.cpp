@@ -1,48 +1,127 @@
 #include "sensors/beam_echoes.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <type_traits>
+
 #include "base/vector_width.h"
+#include "geometry/index/quads.h"
 
 namespace robosim {
 namespace {
 
-/// Branch-free, because whether a hit is in range is unpredictable.
-[[gnu::always_inline]] inline void computeEchoes(const BeamFields* beams, std::size_t count, double cos, double sin,
-                                                 const double* __restrict hit_m, float range_min_m, float range_max_m,
-                                                 float no_echo_m, Echo* __restrict echoes) {
-  const double* __restrict x = beams->x.data();
-  const double* __restrict y = beams->y.data();
-  const double* __restrict z = beams->z.data();
-  const double* __restrict dx = beams->dx.data();
-  const double* __restrict dy = beams->dy.data();
-  const double* __restrict dz = beams->dz.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto range_m = static_cast<float>(hit_m[i]);
-    const bool is_echo = range_m < range_max_m;
-    const float at_m = is_echo ? range_m : no_echo_m;
-    const double out_m = at_m;
-    echoes[i].range_m = (is_echo & (range_m < range_min_m)) ? range_min_m : at_m;
-    echoes[i].point_m.x = static_cast<float>(x[i] + (cos * dx[i] - sin * dy[i]) * out_m);
-    echoes[i].point_m.y = static_cast<float>(y[i] + (sin * dx[i] + cos * dy[i]) * out_m);
-    echoes[i].point_m.z = static_cast<float>(z[i] + dz[i] * out_m);
+/// Ranges of a sensor, and the rotation of its pan.
+struct EchoRule {
+  double cos, sin;
+  float range_min_m, range_max_m, no_echo_m;
+};
+
+[[gnu::always_inline]] inline void loadFour(const double* from, DoubleQuad& numbers) {
+  std::memcpy(&numbers, from, sizeof numbers);
+}
+
+/// Echoes of four beams, each a vector.
+template <bool kPans>
+struct FourEchoes {
+  static_assert(sizeof(Echo) == sizeof(FloatQuad));
+  FloatQuad row[4];
+
+  /// Branch-free, because whether a hit is in range is unpredictable.
+  [[gnu::always_inline]] FourEchoes(const BeamFields::Four& beams, const EchoRule& rule, const double* hits_m) {
+    DoubleQuad hit_m;
+    loadFour(hits_m, hit_m);
+    const auto range_m = __builtin_convertvector(hit_m, FloatQuad);
+    const FloatQuad range_min_m = inEachLane(rule.range_min_m);
+    const FloatQuad at_m = range_m < inEachLane(rule.range_max_m) ? range_m : inEachLane(rule.no_echo_m);
+    const auto out_m = __builtin_convertvector(at_m, DoubleQuad);
+    const FloatQuad read_m = range_m < range_min_m ? range_min_m : at_m;
+    DoubleQuad dx, dy, dz, x_m, y_m, z_m;
+    loadFour(beams.dx, dx);
+    loadFour(beams.dy, dy);
+    loadFour(beams.dz, dz);
+    loadFour(beams.x, x_m);
+    loadFour(beams.y, y_m);
+    loadFour(beams.z, z_m);
+    if constexpr (kPans) {
+      const DoubleQuad unpanned_dx = dx;
+      dx = rule.cos * unpanned_dx - rule.sin * dy;
+      dy = rule.sin * unpanned_dx + rule.cos * dy;
+    }
+    const auto x = __builtin_convertvector(x_m + dx * out_m, FloatQuad);
+    const auto y = __builtin_convertvector(y_m + dy * out_m, FloatQuad);
+    const auto z = __builtin_convertvector(z_m + dz * out_m, FloatQuad);
+    const auto low_range_x = __builtin_shufflevector(read_m, x, 0, 4, 1, 5);
+    const auto high_range_x = __builtin_shufflevector(read_m, x, 2, 6, 3, 7);
+    const auto low_yz = __builtin_shufflevector(y, z, 0, 4, 1, 5);
+    const auto high_yz = __builtin_shufflevector(y, z, 2, 6, 3, 7);
+    row[0] = __builtin_shufflevector(low_range_x, low_yz, 0, 1, 4, 5);
+    row[1] = __builtin_shufflevector(low_range_x, low_yz, 2, 3, 6, 7);
+    row[2] = __builtin_shufflevector(high_range_x, high_yz, 0, 1, 4, 5);
+    row[3] = __builtin_shufflevector(high_range_x, high_yz, 2, 3, 6, 7);
+  }
+};
+
+/// @param order null for echoes in the order of the beams
+template <bool kPans, bool kHasOrder>
+[[gnu::always_inline]] inline void computeEchoes(const BeamFields::Four* beams, std::size_t count, const EchoRule* rule,
+                                                 const double* hit_m, const std::uint32_t* order, Echo* echoes) {
+  const EchoRule kept = *rule;
+  const auto store = [&](std::size_t i, const FloatQuad& row) __attribute__((always_inline)) {
+    std::memcpy(static_cast<void*>(echoes + (kHasOrder ? order[i] : i)), &row, sizeof row);
+  };
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4, ++beams) {
+    const FourEchoes<kPans> four(*beams, kept, hit_m + i);
+    for (std::size_t k = 0; k < 4; ++k) store(i + k, four.row[k]);
+  }
+  if (i == count) return;
+  double last_m[4] = {};
+  std::copy(hit_m + i, hit_m + count, last_m);
+  const FourEchoes<kPans> four(*beams, kept, last_m);
+  for (std::size_t k = i; k < count; ++k) store(k, four.row[k - i]);
+}
+
+template <bool kHasOrder>
+void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan, const double* hit_m,
+               const std::uint32_t* order, Echo* echoes) {
+  assert(info.range_min_m <= info.range_max_m);
+  const EchoRule rule{pan.cos(), pan.sin(), static_cast<float>(info.range_min_m), static_cast<float>(info.range_max_m),
+                      static_cast<float>(info.no_echo_m)};
+  const auto set = [&](auto pans) {
+    withVectors<computeEchoes<pans(), kHasOrder>>(beams.fours(), beams.size(), &rule, hit_m, order, echoes);
+  };
+  if (pan.sin() == 0 && pan.cos() == 1) {
+    set(std::false_type());
+  } else {
+    set(std::true_type());
   }
 }
 
 }  // namespace
 
 void BeamFields::add(const Ray& beam) {
-  x.push_back(beam.origin.x);
-  y.push_back(beam.origin.y);
-  z.push_back(beam.origin.z);
-  dx.push_back(beam.direction.x);
-  dy.push_back(beam.direction.y);
-  dz.push_back(beam.direction.z);
+  const std::size_t lane = size_++ % 4;
+  Four& four = lane == 0 ? fours_.emplace_back() : fours_.back();
+  four.x[lane] = beam.origin.x;
+  four.y[lane] = beam.origin.y;
+  four.z[lane] = beam.origin.z;
+  // As a pan by the angle 0 turns them, which may change the sign of a zero: without a pan they are used as they are.
+  four.dx[lane] = 1.0 * beam.direction.x - 0.0 * beam.direction.y;
+  four.dy[lane] = 0.0 * beam.direction.x + 1.0 * beam.direction.y;
+  four.dz[lane] = beam.direction.z;
 }
 
 void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
-               const std::vector<double>& hit_m, Echoes& echoes) {
-  withVectors<computeEchoes>(&beams, hit_m.size(), pan.cos(), pan.sin(), hit_m.data(),
-                             static_cast<float>(info.range_min_m), static_cast<float>(info.range_max_m),
-                             static_cast<float>(info.no_echo_m), echoes.data());
+               std::span<const double> hit_m, Echoes& echoes) {
+  assert(hit_m.size() >= beams.size() && echoes.size() == beams.size());
+  setEchoes<false>(beams, info, pan, hit_m.data(), nullptr, echoes.data());
+}
+
+void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
+               std::span<const double> hit_m, std::span<const std::uint32_t> order, Echoes& echoes) {
+  assert(hit_m.size() >= beams.size() && order.size() == beams.size());
+  setEchoes<true>(beams, info, pan, hit_m.data(), order.data(), echoes.data());
 }
 
 }  // namespace robosim

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/shapes/planar_transform.h"
@@ -8,18 +10,31 @@
 
 namespace robosim {
 
-/// Origins and directions of thin beams, robot frame, before panning: structure of arrays, so that loops over beams are
-/// vectorised.
-struct BeamFields {
-  std::vector<double> x, y, z, dx, dy, dz;
+/// Origins and directions of thin beams, robot frame, before panning. By four, so that loops over beams use vectors.
+class BeamFields {
+ public:
+  struct Four {
+    double x[4] = {}, y[4] = {}, z[4] = {}, dx[4] = {}, dy[4] = {}, dz[4] = {};
+  };
 
   void add(const Ray& beam);
+  std::size_t size() const { return size_; }
+  const Four* fours() const { return fours_.data(); }
+
+ private:
+  std::vector<Four> fours_;
+  std::size_t size_ = 0;
 };
 
 /// Computes the echo of each beam, panned by the rotation of `pan`, from the distance of its hit. A distance of
 /// range_max_m or more gives no echo.
 /// @param info specifies the ranges
+/// @param hit_m by beam; may be longer
 void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
-               const std::vector<double>& hit_m, Echoes& echoes);
+               std::span<const double> hit_m, Echoes& echoes);
+/// The same for beams in another order than the echoes'.
+/// @param order index of each beam's echo
+void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
+               std::span<const double> hit_m, std::span<const std::uint32_t> order, Echoes& echoes);
 
 }  // namespace robosim

@@ -1,26 +1,32 @@
 #include "sensors/odometry.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "base/portable_math.h"
 #include "base/wrapped_angle.h"
+#include "geometry/shapes/chord_batch.h"
 
 namespace robosim {
 namespace {
 
-/// The pose after an arc of constant curvature.
-mrpt::math::TPose2D afterArc(const mrpt::math::TPose2D& from, const Motion& motion) {
-  const double half = motion.turn_rad / 2;
-  const double chord_by_arc = half == 0 ? 1 : portable::sin(half) / half;
-  const double chord = motion.length_m * chord_by_arc;
-  const auto [sin, cos] = portable::sincos(from.phi + half);
-  mrpt::math::TPose2D to{from.x + chord * cos, from.y + chord * sin, wrappedAngle(from.phi + motion.turn_rad)};
+/// Adds a motion along an arc of constant curvature.
+/// @param chord of the arc, odometry frame
+void advance(Odometry& odometry, const Motion& motion, const ChordBatch::Chord& chord, double period_s) {
+  auto& pose = odometry.odom_from_robot;
+  const double length_m = motion.length_m * chord.per_arc;
+  const auto [sin, cos] = chord.direction;
+  pose.x += length_m * cos;
+  pose.y += length_m * sin;
   if (motion.lateral_m != 0) {
-    const double aside = motion.lateral_m * chord_by_arc;
-    to.x -= aside * sin;
-    to.y += aside * cos;
+    const double aside_m = motion.lateral_m * chord.per_arc;
+    pose.x -= aside_m * sin;
+    pose.y += aside_m * cos;
   }
-  return to;
+  pose.phi = wrappedAngle(pose.phi + motion.turn_rad);
+  odometry.speed_mps = motion.length_m / period_s;
+  odometry.turn_radps = motion.turn_rad / period_s;
+  odometry.lateral_mps = motion.lateral_m / period_s;
 }
 
 class WheelOdometry : public Sensor {
@@ -37,21 +43,44 @@ class WheelOdometry : public Sensor {
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
-    for (const auto robot : robots) {
-      auto& odometry = std::get<Odometry>(readings[robot].measurements[slot]);
-      Motion measured = now.last_motion[robot];
-      if (options_.noise.on) {
-        if (has_wheel_errors_) measured = options_.wheels.measured(measured, now.blocked(robot), now.time.period_s);
-        measured = withNoise(measured, now.noise(robot, slot));
+    if (options_.noise.on) {
+      for (const auto robot : robots) {
+        senseWithNoise(now, robot, slot, std::get<Odometry>(readings[robot].measurements[slot]));
       }
-      odometry.odom_from_robot = afterArc(odometry.odom_from_robot, measured);
-      odometry.speed_mps = measured.length_m / now.time.period_s;
-      odometry.turn_radps = measured.turn_rad / now.time.period_s;
-      odometry.lateral_mps = measured.lateral_m / now.time.period_s;
+      return;
+    }
+    for (std::size_t begin = 0; begin < robots.size(); begin += ChordBatch::kCapacity) {
+      const std::size_t count = std::min(robots.size() - begin, ChordBatch::kCapacity);
+      senseTogether(now, robots.subspan(begin, count), slot, readings);
     }
   }
 
  private:
+  /// @param robots at most ChordBatch::kCapacity
+  void senseTogether(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
+                     std::span<Readings> readings) const {
+    ChordBatch arcs;
+    std::array<Odometry*, ChordBatch::kCapacity> odometries;
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+      odometries[k] = &std::get<Odometry>(readings[robots[k]].measurements[slot]);
+      arcs.add(odometries[k]->odom_from_robot.phi, now.last_motion[robots[k]].turn_rad / 2);
+    }
+    arcs.compute();
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+      advance(*odometries[k], now.last_motion[robots[k]], arcs[k], now.time.period_s);
+    }
+  }
+
+  void senseWithNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, Odometry& odometry) const {
+    Motion motion = now.last_motion[robot];
+    if (has_wheel_errors_) motion = options_.wheels.measured(motion, now.blocked(robot), now.time.period_s);
+    motion = withNoise(motion, now.noise(robot, slot));
+    ChordBatch arc;
+    arc.add(odometry.odom_from_robot.phi, motion.turn_rad / 2);
+    arc.compute();
+    advance(odometry, motion, arc[0], now.time.period_s);
+  }
+
   Motion withNoise(const Motion& true_motion, Rng rng) const {
     const auto& noise = options_.noise;
     const double root_m = std::sqrt(std::abs(true_motion.length_m));

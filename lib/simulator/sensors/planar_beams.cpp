@@ -1,5 +1,7 @@
 #include "sensors/planar_beams.h"
 
+#include <cstdint>
+
 #include "sensors/beam_mounts.h"
 
 namespace robosim {
@@ -9,7 +11,11 @@ PlanarBeams::PlanarBeams(const std::vector<Beam>& beams) {
   for (const auto& [z_m, indices] : beamsByHeight(beams)) {
     std::vector<Ray> rays;
     for (const auto i : indices) rays.push_back(beams_[i]);
-    groups_.push_back({indices, BeamFan(rays)});
+    HeightGroup& group = groups_.emplace_back(HeightGroup{indices, BeamFan(rays), {}});
+    group.beam_of_slot.resize(indices.size());
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      group.beam_of_slot[group.fan.slotOf(k)] = static_cast<std::uint32_t>(indices[k]);
+    }
   }
 }
 

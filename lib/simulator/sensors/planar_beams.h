@@ -1,5 +1,6 @@
 #pragma once
 #include <cassert>
+#include <cstdint>
 #include <vector>
 
 #include "hardware/sensor_info.h"
@@ -16,23 +17,40 @@ class PlanarBeams {
   /// Origin and direction of a beam, robot frame, before panning.
   const Ray& operator[](std::size_t i) const { return beams_[i]; }
 
-  /// Casts the beams of a robot, all turned by `pan_rad`. For each height at which there are candidate solids, calls
+  /// Beams at one height, as a BeamFan requires.
+  struct HeightGroup {
+    std::vector<std::size_t> beams;
+    BeamFan fan;
+    std::vector<std::uint32_t> beam_of_slot;  ///< BeamFan::slotOf() of `beams`, reversed
+  };
+  const std::vector<HeightGroup>& groups() const { return groups_; }
+
+  /// Casts the beams of a robot, all turned by `pan_rad`. Calls visit(group index, batch) for each height.
+  template <typename Visit>
+  void castGroups(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
+    static thread_local BeamBatch batch;  // reused for all robots of a thread
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      batch.place(groups_[g].fan, now.frames[robot], range_m, pan_rad);
+      now.scene.cast(batch, now.bodyOf(robot));
+      visit(g, static_cast<const BeamBatch&>(batch));
+    }
+  }
+
+  /// The same by beam. For each height at which there are candidate solids, calls
   /// visit(i, distance_m, body) for all beams at that height: with the range and kNoBody for a beam without a hit.
   /// @return whether visit() was called
   template <typename Visit>
   bool cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
-    static thread_local BeamBatch batch;  // reused for all robots of a thread
     bool any = false;
-    for (const auto& group : groups_) {
-      batch.place(group.fan, now.frames[robot], range_m, pan_rad);
-      now.scene.cast(batch, now.bodyOf(robot));
-      if (batch.hasNoCandidates()) continue;
+    castGroups(now, robot, pan_rad, range_m, [&](std::size_t g, const BeamBatch& batch) {
+      if (batch.hasNoCandidates()) return;
       any = true;
-      for (std::size_t k = 0; k < group.beams.size(); ++k) {
+      const auto& beams = groups_[g].beams;
+      for (std::size_t k = 0; k < beams.size(); ++k) {
         static_assert(BodyId{static_cast<std::uint32_t>(BeamBatch::kNothing)} == kNoBody);
-        visit(group.beams[k], batch.distance(k), BodyId{static_cast<std::uint32_t>(batch.body(k))});
+        visit(beams[k], batch.distance(k), BodyId{static_cast<std::uint32_t>(batch.body(k))});
       }
-    }
+    });
     return any;
   }
 
@@ -50,11 +68,6 @@ class PlanarBeams {
   }
 
  private:
-  /// Beams at one height, as a BeamFan requires.
-  struct HeightGroup {
-    std::vector<std::size_t> beams;
-    BeamFan fan;
-  };
   std::vector<Ray> beams_;
   std::vector<HeightGroup> groups_;
 };

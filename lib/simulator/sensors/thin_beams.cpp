@@ -16,6 +16,10 @@ class ThinBeams : public Sensor {
   ThinBeams(const SensorInfo& info, const RangeNoise& noise)
       : info_(info), noise_(noise), beams_(info.beams), no_echoes_(beams_.size()) {
     for (std::size_t i = 0; i < beams_.size(); ++i) fields_.add(beams_[i]);
+    for (const auto& group : beams_.groups()) {
+      BeamFields& fields = fields_of_group_.emplace_back();
+      for (const auto beam : group.beam_of_slot) fields.add(beams_[beam]);
+    }
     setEchoes(fields_, info_, PlanarTransform(), std::vector<double>(beams_.size(), kInfinity), no_echoes_);
   }
 
@@ -25,24 +29,46 @@ class ThinBeams : public Sensor {
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
-    static thread_local std::vector<double> hit_m;
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
       const double pan_rad = info_.pans ? now.laser_pan_rad[robot] : 0;
-      hit_m.assign(beams_.size(), kInfinity);
-      const bool any = beams_.cast(now, robot, pan_rad, info_.range_max_m,
-                                   [&](std::size_t i, double distance_m, BodyId) { hit_m[i] = distance_m; });
       if (noise_.on) {
-        addNoise(now.noise(robot, slot), hit_m);
-      } else if (!any && pan_rad == 0) {
-        std::copy(no_echoes_.begin(), no_echoes_.end(), echoes.begin());
-        continue;
+        senseWithNoise(now, robot, slot, pan_rad, echoes);
+      } else {
+        senseExactly(now, robot, pan_rad, echoes);
       }
-      setEchoes(fields_, info_, PlanarTransform(PlanarTransform(), pan_rad), hit_m, echoes);
     }
   }
 
  private:
+  void senseExactly(const Snapshot& now, std::uint32_t robot, double pan_rad, Echoes& echoes) const {
+    const PlanarTransform pan(PlanarTransform(), pan_rad);
+    beams_.castGroups(now, robot, pan_rad, info_.range_max_m, [&](std::size_t g, const BeamBatch& batch) {
+      const auto& beams = beams_.groups()[g].beam_of_slot;
+      if (!batch.hasNoCandidates()) {
+        setEchoes(fields_of_group_[g], info_, pan, batch.distancesBySlot(), beams, echoes);
+      } else if (pan_rad != 0) {
+        static thread_local std::vector<double> nothing_m;
+        nothing_m.assign(beams.size(), kInfinity);
+        setEchoes(fields_of_group_[g], info_, pan, nothing_m, beams, echoes);
+      } else if (beams.size() == echoes.size()) {
+        std::copy(no_echoes_.begin(), no_echoes_.end(), echoes.begin());
+      } else {
+        for (const auto beam : beams) echoes[beam] = no_echoes_[beam];
+      }
+    });
+  }
+
+  void senseWithNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, double pan_rad,
+                      Echoes& echoes) const {
+    static thread_local std::vector<double> hit_m;
+    hit_m.assign(beams_.size(), kInfinity);
+    beams_.cast(now, robot, pan_rad, info_.range_max_m,
+                [&](std::size_t i, double distance_m, BodyId) { hit_m[i] = distance_m; });
+    addNoise(now.noise(robot, slot), hit_m);
+    setEchoes(fields_, info_, PlanarTransform(PlanarTransform(), pan_rad), hit_m, echoes);
+  }
+
   /// Every beam draws its own random numbers, independent of the other beams' hits.
   void addNoise(Rng rng, std::vector<double>& hit_m) const {
     for (auto& distance_m : hit_m) {
@@ -54,6 +80,7 @@ class ThinBeams : public Sensor {
   RangeNoise noise_;
   PlanarBeams beams_;
   BeamFields fields_;
+  std::vector<BeamFields> fields_of_group_;  ///< PlanarBeams::groups(), by slot
   Echoes no_echoes_;  ///< of all beams without pan and without hits
 };
 

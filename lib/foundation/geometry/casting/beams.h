@@ -24,6 +24,8 @@ class BeamFan {
   explicit BeamFan(std::span<const Sector> sectors);
 
   std::size_t size() const { return slot_.size(); }
+  /// Place of a beam in BeamBatch::distancesBySlot().
+  std::size_t slotOf(std::size_t i) const { return slot_[i]; }
 
  private:
   friend class BeamBatch;
@@ -78,6 +80,8 @@ class BeamBatch {
   bool hasNoCandidates() const { return !is_initialized_; }
   /// Distance [m] from the origin of beam `i` to its hit, or the range.
   double distance(std::size_t i) const { return is_initialized_ ? distance_[fan_->slot_[i]] : farthest_m_; }
+  /// The same of all beams, sorted by bearing (BeamFan::slotOf()), then unused ones; undefined if hasNoCandidates().
+  std::span<const double> distancesBySlot() const { return distance_; }
   std::int64_t body(std::size_t i) const {
     return is_initialized_ ? static_cast<std::int64_t>(body_[fan_->slot_[i]]) : kNothing;
   }

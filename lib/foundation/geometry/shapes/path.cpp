@@ -7,6 +7,7 @@
 #include "base/angle_units.h"
 #include "base/portable_math.h"
 #include "base/wrapped_angle.h"
+#include "geometry/shapes/chord_batch.h"
 #include "geometry/shapes/planar_vector.h"
 
 namespace robosim {
@@ -126,6 +127,25 @@ TPoint2D Path::centerAt(double fraction) const { return startOf(*this) + displac
 mrpt::math::TPose2D Path::endPose() const {
   const TPoint2D center = centerAt(1);
   return {center.x, center.y, wrappedAngle(world_from_start.phi + clippedTurn())};
+}
+
+void computeEndPoses(std::span<const Path* const> paths, std::span<mrpt::math::TPose2D* const> poses) {
+  ChordBatch chords;
+  for (const Path* path : paths) {
+    chords.add(path->world_from_start.phi + path->direction_rad, path->turn_rad / 2);
+  }
+  chords.compute();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const Path& path = *paths[i];
+    if (path.end_fraction < 1) {
+      *poses[i] = path.endPose();
+      continue;
+    }
+    const auto [per_arc, direction] = chords[i];
+    const double chord_m = path.length_m * per_arc;
+    *poses[i] = {path.world_from_start.x + chord_m * direction.cos, path.world_from_start.y + chord_m * direction.sin,
+                 wrappedAngle(path.world_from_start.phi + path.clippedTurn())};
+  }
 }
 
 double firstContact(const Path& path, double radius_m, const Outline& outline) {

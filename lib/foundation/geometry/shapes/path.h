@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
@@ -33,6 +35,10 @@ struct Path {
   double clippedLength() const { return length_m * end_fraction; }                        ///< signed [m]
   double clippedTurn() const { return turn_stops ? turn_rad * end_fraction : turn_rad; }  ///< signed [rad]
 };
+
+/// Sets poses to Path::endPose() of many paths, computed together in vectors, bit for bit.
+/// @param paths at most ChordBatch::kCapacity @param poses as many
+void computeEndPoses(std::span<const Path* const> paths, std::span<mrpt::math::TPose2D* const> poses);
 
 /// Fraction in [0, 1] at which a disc on the path first comes within kContactGap_m of the outline; 1 when it never does
 /// (swept-disc test). A disc that starts within the gap may leave or slide along; it is stopped (0) if it would

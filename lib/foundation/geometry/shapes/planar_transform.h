@@ -14,11 +14,10 @@ class PlanarTransform {
   PlanarTransform() = default;
   /// @param z_m height of the frame's origin
   PlanarTransform(const mrpt::math::TPose2D& world_from_frame, double z_m)
-      : x_(world_from_frame.x), y_(world_from_frame.y), z_(z_m) {
-    const auto [sin, cos] = portable::sincos(world_from_frame.phi);
-    cos_ = cos;
-    sin_ = sin;
-  }
+      : PlanarTransform(world_from_frame, z_m, portable::sincos(world_from_frame.phi)) {}
+  /// @param heading sine and cosine of world_from_frame.phi
+  PlanarTransform(const mrpt::math::TPose2D& world_from_frame, double z_m, const portable::SinCos& heading)
+      : x_(world_from_frame.x), y_(world_from_frame.y), z_(z_m), cos_(heading.cos), sin_(heading.sin) {}
 
   /// The same frame, rotated further about its own origin.
   PlanarTransform(const PlanarTransform& frame, double turn_rad) : PlanarTransform(frame) {
