@@ -57,8 +57,9 @@ template <auto kFunction, typename... Arguments>
   return kFunction(arguments...);
 }
 #endif
+// Not inlined, because the caller would reserve the registers and the stack of this variant for all of them.
 template <auto kFunction, typename... Arguments>
-auto callBaseline(Arguments... arguments) {
+[[gnu::noinline]] auto callBaseline(Arguments... arguments) {
   return kFunction(arguments...);
 }
 ///@}

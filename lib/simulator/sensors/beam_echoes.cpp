@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <type_traits>
 
 #include "base/vector_width.h"
 #include "geometry/index/quads.h"
 
 namespace robosim {
 namespace {
-
-/// Ranges of a sensor, and the rotation of its pan.
-struct EchoRule {
-  double cos, sin;
-  float range_min_m, range_max_m, no_echo_m;
-};
 
 [[gnu::always_inline]] inline void loadFour(const double* from, DoubleQuad& numbers) {
   std::memcpy(&numbers, from, sizeof numbers);
@@ -83,18 +76,12 @@ template <bool kPans, bool kHasOrder>
 }
 
 template <bool kHasOrder>
-void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan, const double* hit_m,
-               const std::uint32_t* order, Echo* echoes) {
-  assert(info.range_min_m <= info.range_max_m);
-  const EchoRule rule{pan.cos(), pan.sin(), static_cast<float>(info.range_min_m), static_cast<float>(info.range_max_m),
-                      static_cast<float>(info.no_echo_m)};
-  const auto set = [&](auto pans) {
-    withVectors<computeEchoes<pans(), kHasOrder>>(beams.fours(), beams.size(), &rule, hit_m, order, echoes);
-  };
-  if (pan.sin() == 0 && pan.cos() == 1) {
-    set(std::false_type());
+void setEchoes(const BeamFields& beams, const EchoRule& rule, const double* hit_m, const std::uint32_t* order,
+               Echo* echoes) {
+  if (rule.pans()) {
+    withVectors<computeEchoes<true, kHasOrder>>(beams.fours(), beams.size(), &rule, hit_m, order, echoes);
   } else {
-    set(std::true_type());
+    withVectors<computeEchoes<false, kHasOrder>>(beams.fours(), beams.size(), &rule, hit_m, order, echoes);
   }
 }
 
@@ -112,16 +99,24 @@ void BeamFields::add(const Ray& beam) {
   four.dz[lane] = beam.direction.z;
 }
 
-void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
-               std::span<const double> hit_m, Echoes& echoes) {
-  assert(hit_m.size() >= beams.size() && echoes.size() == beams.size());
-  setEchoes<false>(beams, info, pan, hit_m.data(), nullptr, echoes.data());
+EchoRule::EchoRule(const SensorInfo& info, const PlanarTransform& pan)
+    : cos(pan.cos()),
+      sin(pan.sin()),
+      range_min_m(static_cast<float>(info.range_min_m)),
+      range_max_m(static_cast<float>(info.range_max_m)),
+      no_echo_m(static_cast<float>(info.no_echo_m)) {
+  assert(range_min_m <= range_max_m);
 }
 
-void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
-               std::span<const double> hit_m, std::span<const std::uint32_t> order, Echoes& echoes) {
-  assert(hit_m.size() >= beams.size() && order.size() == beams.size());
-  setEchoes<true>(beams, info, pan, hit_m.data(), order.data(), echoes.data());
+void setEchoes(const BeamFields& beams, const EchoRule& rule, std::span<const double> hit_m, Echoes& echoes) {
+  assert(hit_m.size() >= beams.size());
+  setEchoes<false>(beams, rule, hit_m.data(), nullptr, echoes.data());
+}
+
+void setEchoes(const BeamFields& beams, const EchoRule& rule, std::span<const double> hit_m,
+               std::span<const std::uint32_t> order, Echoes& echoes) {
+  assert(hit_m.size() >= beams.size());
+  setEchoes<true>(beams, rule, hit_m.data(), order.data(), echoes.data());
 }
 
 }  // namespace robosim

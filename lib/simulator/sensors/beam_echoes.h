@@ -26,15 +26,21 @@ class BeamFields {
   std::size_t size_ = 0;
 };
 
-/// Computes the echo of each beam, panned by the rotation of `pan`, from the distance of its hit. A distance of
-/// range_max_m or more gives no echo.
-/// @param info specifies the ranges
+/// Ranges of a sensor, and the rotation of its pan. A distance of range_max_m or more gives no echo.
+struct EchoRule {
+  double cos = 1, sin = 0;
+  float range_min_m, range_max_m, no_echo_m;
+
+  explicit EchoRule(const SensorInfo& info, const PlanarTransform& pan = {});
+  bool pans() const { return sin != 0 || cos != 1; }
+};
+
+/// Computes the echo of each beam from the distance of its hit.
 /// @param hit_m by beam; may be longer
-void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
-               std::span<const double> hit_m, Echoes& echoes);
+void setEchoes(const BeamFields& beams, const EchoRule& rule, std::span<const double> hit_m, Echoes& echoes);
 /// The same for beams in another order than the echoes'.
 /// @param order index of each beam's echo
-void setEchoes(const BeamFields& beams, const SensorInfo& info, const PlanarTransform& pan,
-               std::span<const double> hit_m, std::span<const std::uint32_t> order, Echoes& echoes);
+void setEchoes(const BeamFields& beams, const EchoRule& rule, std::span<const double> hit_m,
+               std::span<const std::uint32_t> order, Echoes& echoes);
 
 }  // namespace robosim

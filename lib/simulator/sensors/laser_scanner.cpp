@@ -45,7 +45,7 @@ class LaserScanner : public Sensor {
       hits.reset(beams_, now.frames[robot], pan_rad);
       cast(now, robot, slot, pan_rad, hits);
       if (has_errors_) applyErrors(now, robot, slot, hits);
-      setEchoes(fields_, info_, PlanarTransform(PlanarTransform(), pan_rad), hits.distance_m,
+      setEchoes(fields_, EchoRule(info_, PlanarTransform(PlanarTransform(), pan_rad)), hits.distance_m,
                 std::get<Echoes>(readings[robot].measurements[slot]));
     }
   }

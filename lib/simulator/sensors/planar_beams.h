@@ -26,9 +26,10 @@ class PlanarBeams {
   const std::vector<HeightGroup>& groups() const { return groups_; }
 
   /// Casts the beams of a robot, all turned by `pan_rad`. Calls visit(group index, batch) for each height.
+  /// @param batch memory, reused for all robots of a thread
   template <typename Visit>
-  void castGroups(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
-    static thread_local BeamBatch batch;  // reused for all robots of a thread
+  void castGroups(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, BeamBatch& batch,
+                  const Visit& visit) const {
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       batch.place(groups_[g].fan, now.frames[robot], range_m, pan_rad);
       now.scene.cast(batch, now.bodyOf(robot));
@@ -41,8 +42,9 @@ class PlanarBeams {
   /// @return whether visit() was called
   template <typename Visit>
   bool cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
+    static thread_local BeamBatch reused;
     bool any = false;
-    castGroups(now, robot, pan_rad, range_m, [&](std::size_t g, const BeamBatch& batch) {
+    castGroups(now, robot, pan_rad, range_m, reused, [&](std::size_t g, const BeamBatch& batch) {
       if (batch.hasNoCandidates()) return;
       any = true;
       const auto& beams = groups_[g].beams;

@@ -20,7 +20,7 @@ class ThinBeams : public Sensor {
       BeamFields& fields = fields_of_group_.emplace_back();
       for (const auto beam : group.beam_of_slot) fields.add(beams_[beam]);
     }
-    setEchoes(fields_, info_, PlanarTransform(), std::vector<double>(beams_.size(), kInfinity), no_echoes_);
+    setEchoes(fields_, EchoRule(info_), std::vector<double>(beams_.size(), kInfinity), no_echoes_);
   }
 
   const SensorInfo& info() const override { return info_; }
@@ -29,28 +29,33 @@ class ThinBeams : public Sensor {
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
+    static thread_local BeamBatch reused;
+    BeamBatch& batch = reused;  // found once: a thread's variable is found by a call
+    const EchoRule unpanned(info_);
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
       const double pan_rad = info_.pans ? now.laser_pan_rad[robot] : 0;
       if (noise_.on) {
         senseWithNoise(now, robot, slot, pan_rad, echoes);
+      } else if (pan_rad == 0) {
+        senseExactly(now, robot, pan_rad, unpanned, batch, echoes);
       } else {
-        senseExactly(now, robot, pan_rad, echoes);
+        senseExactly(now, robot, pan_rad, EchoRule(info_, PlanarTransform(PlanarTransform(), pan_rad)), batch, echoes);
       }
     }
   }
 
  private:
-  void senseExactly(const Snapshot& now, std::uint32_t robot, double pan_rad, Echoes& echoes) const {
-    const PlanarTransform pan(PlanarTransform(), pan_rad);
-    beams_.castGroups(now, robot, pan_rad, info_.range_max_m, [&](std::size_t g, const BeamBatch& batch) {
+  void senseExactly(const Snapshot& now, std::uint32_t robot, double pan_rad, const EchoRule& rule, BeamBatch& batch,
+                    Echoes& echoes) const {
+    beams_.castGroups(now, robot, pan_rad, info_.range_max_m, batch, [&](std::size_t g, const BeamBatch& cast) {
       const auto& beams = beams_.groups()[g].beam_of_slot;
-      if (!batch.hasNoCandidates()) {
-        setEchoes(fields_of_group_[g], info_, pan, batch.distancesBySlot(), beams, echoes);
-      } else if (pan_rad != 0) {
+      if (!cast.hasNoCandidates()) {
+        setEchoes(fields_of_group_[g], rule, cast.distancesBySlot(), beams, echoes);
+      } else if (rule.pans()) {
         static thread_local std::vector<double> nothing_m;
         nothing_m.assign(beams.size(), kInfinity);
-        setEchoes(fields_of_group_[g], info_, pan, nothing_m, beams, echoes);
+        setEchoes(fields_of_group_[g], rule, nothing_m, beams, echoes);
       } else if (beams.size() == echoes.size()) {
         std::copy(no_echoes_.begin(), no_echoes_.end(), echoes.begin());
       } else {
@@ -66,7 +71,7 @@ class ThinBeams : public Sensor {
     beams_.cast(now, robot, pan_rad, info_.range_max_m,
                 [&](std::size_t i, double distance_m, BodyId) { hit_m[i] = distance_m; });
     addNoise(now.noise(robot, slot), hit_m);
-    setEchoes(fields_, info_, PlanarTransform(PlanarTransform(), pan_rad), hit_m, echoes);
+    setEchoes(fields_, EchoRule(info_, PlanarTransform(PlanarTransform(), pan_rad)), hit_m, echoes);
   }
 
   /// Every beam draws its own random numbers, independent of the other beams' hits.

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 #include "base/vector_width.h"
 #include "geometry/casting/beam_kernels.h"
@@ -34,7 +35,7 @@ struct Blocks {
 }
 
 /// Intersects the chosen candidates with the blocks of beams that they may hit.
-template <auto kIntersect, std::size_t kBlock>
+template <auto kIntersect, std::size_t kBlock, typename Beams>
 [[gnu::always_inline]] inline void intersectChosen(const Beams& beams, const Blocks& blocks,
                                                    const Candidates& candidates, const BearingArrays& arrays,
                                                    std::uint32_t chosen) {
@@ -60,10 +61,14 @@ template <auto kIntersect, std::size_t kBlock>
 }
 
 /// Intersects candidates with all beams that may hit them.
+/// @param beams passed by value: the compiler heeds restrict pointers of parameters only
 /// @return the largest distance of all beams
 template <typename Kernel, std::size_t kBlock>
-[[gnu::always_inline]] inline double intersectAll(Beams beams, const CullFrame* frame, double z_m, Blocks blocks,
-                                                  const Candidates* candidates, BearingArrays* bearings) {
+[[gnu::always_inline]] inline double intersectAll(typename Kernel::Beams beams, std::size_t padded,
+                                                  const CullFrame* frame, double z_m,
+                                                  const std::uint32_t* first_of_bin, const Candidates* candidates,
+                                                  BearingArrays* bearings) {
+  const Blocks blocks{first_of_bin, padded / kBlock};
   BearingArrays& arrays = *bearings;
   // The covering disc suffices for wide gaps between beams.
   constexpr bool kDisc = kBlock == kNarrowBlock;
@@ -72,39 +77,57 @@ template <typename Kernel, std::size_t kBlock>
   // By shape, because the shape is unpredictable.
   intersectChosen<Kernel::circle, kBlock>(beams, blocks, *candidates, arrays, shapes.circles & ~far);
   intersectChosen<Kernel::box, kBlock>(beams, blocks, *candidates, arrays, shapes.boxes & ~far);
-  return largest(beams.distance, blocks.count * kBlock);
+  return largest(beams.distance, padded);
 }
 
-/// Rotates directions.
-[[gnu::always_inline]] inline void turn(const double* __restrict x, const double* __restrict y, std::size_t count,
-                                        double cos, double sin, double* __restrict to_x, double* __restrict to_y) {
-  for (std::size_t i = 0; i < count; ++i) {
-    to_x[i] = cos * x[i] - sin * y[i];
-    to_y[i] = sin * x[i] + cos * y[i];
-  }
+/// Four numbers of a field.
+///@{
+[[gnu::always_inline]] inline void loadFour(const double* from, DoubleQuad& numbers) {
+  std::memcpy(&numbers, from, sizeof numbers);
+}
+[[gnu::always_inline]] inline void storeFour(const DoubleQuad& numbers, double* to) {
+  std::memcpy(to, &numbers, sizeof numbers);
+}
+///@}
+
+/// Rotates vectors.
+/// @param x,to_x fields, each followed by that of y after `padded` numbers
+[[gnu::always_inline]] inline void turnFour(const double* x, std::size_t padded, double cos, double sin, double* to_x) {
+  DoubleQuad from_x, from_y;
+  loadFour(x, from_x);
+  loadFour(x + padded, from_y);
+  storeFour(cos * from_x - sin * from_y, to_x);
+  storeFour(sin * from_x + cos * from_y, to_x + padded);
 }
 
-/// Transforms the origins and the left edges of beams, which have no hit yet.
-[[gnu::always_inline]] inline void placeBeams(const double* __restrict x, const double* __restrict y,
-                                              const double* __restrict left_x, const double* __restrict left_y,
-                                              std::size_t count, const PlanarTransform* world_from_fan,
-                                              const PlanarTransform* panned, double range_m, double* __restrict to_x,
-                                              double* __restrict to_y, double* __restrict to_left_x,
-                                              double* __restrict to_left_y, double* __restrict distance,
-                                              double* __restrict body) {
+/// Transforms the origins and the edges of beams, which have no hit yet.
+/// @param from fields of the fan, each of `padded` numbers @param to BeamBatch::Field
+template <bool kIsWide>
+[[gnu::always_inline]] inline void placeBeams(const double* from, std::size_t padded,
+                                              const PlanarTransform* world_from_fan, const PlanarTransform* panned,
+                                              double range_m, double* to) {
   const PlanarTransform at = *world_from_fan;
   const double cos = panned->cos(), sin = panned->sin();
-  for (std::size_t i = 0; i < count; ++i) {
-    to_x[i] = at.x() + at.cos() * x[i] - at.sin() * y[i];
-    to_y[i] = at.y() + at.sin() * x[i] + at.cos() * y[i];
-    to_left_x[i] = cos * left_x[i] - sin * left_y[i];
-    to_left_y[i] = sin * left_x[i] + cos * left_y[i];
-    distance[i] = range_m;
-    body[i] = static_cast<double>(BeamBatch::kNothing);
+  const DoubleQuad range{range_m, range_m, range_m, range_m};
+  constexpr auto kNothing = static_cast<double>(BeamBatch::kNothing);
+  const DoubleQuad nothing{kNothing, kNothing, kNothing, kNothing};
+  for (std::size_t i = 0; i < padded; i += 4) {
+    DoubleQuad x, y;
+    loadFour(from + i, x);
+    loadFour(from + padded + i, y);
+    storeFour(at.x() + at.cos() * x - at.sin() * y, to + i);
+    storeFour(at.y() + at.sin() * x + at.cos() * y, to + padded + i);
+    turnFour(from + 2 * padded + i, padded, cos, sin, to + 2 * padded + i);
+    if constexpr (kIsWide) turnFour(from + 4 * padded + i, padded, cos, sin, to + 4 * padded + i);
+    storeFour(range, to + 6 * padded + i);
+    storeFour(nothing, to + 7 * padded + i);
   }
 }
 
 }  // namespace
+
+BeamBatch::BeamBatch() : arrays_(std::make_unique<BearingArrays>()) {}
+BeamBatch::~BeamBatch() = default;
 
 void BeamBatch::place(const BeamFan& fan, const PlanarTransform& world_from_fan, double range_m, double pan_rad) {
   fan_ = &fan;
@@ -132,38 +155,29 @@ void BeamBatch::placeMoved(const BeamFan& fan, const PlanarTransform& world_from
 void BeamBatch::initialize() {
   is_initialized_ = true;
   const BeamFan& fan = *fan_;
-  const std::size_t count = fan.origin_.x.size();
-  if (distance_.size() != count) {
-    for (auto* field : {&origin_, &left_, &right_, &towards_}) {
-      field->x.resize(count);
-      field->y.resize(count);
-    }
-    distance_.resize(count);
-    body_.resize(count);
-  }
-  withVectors<placeBeams>(fan.origin_.x.data(), fan.origin_.y.data(), fan.left_.x.data(), fan.left_.y.data(), count,
-                          &world_from_fan_, &panned_, farthest_m_, origin_.x.data(), origin_.y.data(), left_.x.data(),
-                          left_.y.data(), distance_.data(), body_.data());
+  const std::size_t padded = fan.padded_;
+  const std::size_t size = padded * static_cast<std::size_t>(Field::count);
+  if (fields_.size() < size) fields_.resize(size);
   if (fan.is_wide_) {
-    withVectors<turn>(fan.right_.x.data(), fan.right_.y.data(), count, panned_.cos(), panned_.sin(), right_.x.data(),
-                      right_.y.data());
+    withVectors<placeBeams<true>>(fan.fields_.data(), padded, &world_from_fan_, &panned_, farthest_m_, fields_.data());
+  } else {
+    withVectors<placeBeams<false>>(fan.fields_.data(), padded, &world_from_fan_, &panned_, farthest_m_, fields_.data());
   }
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     const std::size_t slot = fan.slot_[i];
-    origin_.x[slot] = moved_[i].origin.x;
-    origin_.y[slot] = moved_[i].origin.y;
-    left_.x[slot] = moved_[i].direction.x;
-    left_.y[slot] = moved_[i].direction.y;
+    field(Field::x)[slot] = moved_[i].origin.x;
+    field(Field::y)[slot] = moved_[i].origin.y;
+    field(Field::left_x)[slot] = moved_[i].direction.x;
+    field(Field::left_y)[slot] = moved_[i].direction.y;
   }
   // The padding of the last group never hits anything.
-  std::fill(distance_.begin() + static_cast<std::ptrdiff_t>(size()), distance_.end(),
-            -std::numeric_limits<double>::max());
+  double* const distances_m = field(Field::distance);
+  for (std::size_t slot = fan.size(); slot < padded; ++slot) distances_m[slot] = -std::numeric_limits<double>::max();
 }
 
-void BeamBatch::intersect(const Candidates& candidates) {
+void BeamBatch::intersect(Candidates& candidates) {
   if (!is_initialized_) initialize();
-  const Beams beams{origin_.x.data(), origin_.y.data(), left_.x.data(), left_.y.data(),    right_.x.data(),
-                    right_.y.data(),  distance_.data(), body_.data(),   towards_.x.data(), towards_.y.data()};
+  candidates.pad();
   const CullFrame frame{center_.x,
                         center_.y,
                         static_cast<float>(panned_.cos()),
@@ -171,17 +185,17 @@ void BeamBatch::intersect(const Candidates& candidates) {
                         static_cast<float>(spread_m_ * (1 + kCullRelativeError)),
                         fan_->half_width_rad_ + static_cast<float>(turned_rad_),
                         static_cast<float>(farthest_m_)};
-  const Blocks blocks{fan_->first_.data(), distance_.size() / fan_->block_};
-  // On the heap, because the compiler treats each access to a thread's variable as a call, around which it spills the
-  // vectors of its loops.
-  static thread_local const auto arrays = std::make_unique<BearingArrays>();
-  const auto intersect = [&](auto kernel) {
-    using Kernel = decltype(kernel);
-    return fan_->block_ == kNarrowBlock
-               ? withVectors<intersectAll<Kernel, kNarrowBlock>>(beams, &frame, z_m_, blocks, &candidates, arrays.get())
-               : withVectors<intersectAll<Kernel, kWideBlock>>(beams, &frame, z_m_, blocks, &candidates, arrays.get());
+  const auto intersect = [&]<typename Kernel>() {
+    const auto with = [&](auto block) {
+      const typename Kernel::Beams beams(fields_.data(), fan_->padded_);
+      return withVectors<intersectAll<Kernel, block()>>(beams, fan_->padded_, &frame, z_m_, fan_->first_.data(),
+                                                        static_cast<const Candidates*>(&candidates), arrays_.get());
+    };
+    return fan_->block_ == kNarrowBlock ? with(std::integral_constant<std::size_t, kNarrowBlock>())
+                                        : with(std::integral_constant<std::size_t, kWideBlock>());
   };
-  farthest_m_ = fan_->is_wide_ ? intersect(SectorKernel()) : intersect(RayKernel());
+  farthest_m_ = fan_->is_wide_ ? intersect.template operator()<SectorKernel>()
+                               : intersect.template operator()<RayKernel>();
 }
 
 }  // namespace robosim

@@ -75,20 +75,25 @@ BeamFan::BeamFan(std::span<const Sector> sectors) : is_wide_(true) {
   slot_.resize(count);
   for (std::uint32_t slot = 0; slot < count; ++slot) slot_[by_bearing[slot]] = slot;
   block_ = count <= kFewBeams ? kNarrowBlock : kWideBlock;
-  const std::size_t padded = (count + block_ - 1) / block_ * block_;
-  for (std::size_t slot = 0; slot < padded; ++slot) {
-    const Sector& sector = sectors[by_bearing[std::min(slot, count - 1)]];
-    origin_.add(sector.apex.x, sector.apex.y);
-    left_.add(sector.left.x, sector.left.y);
-    right_.add(sector.right.x, sector.right.y);
-  }
+  padded_ = (count + block_ - 1) / block_ * block_;
+  const auto add_field = [&](const auto& number_of) {
+    for (std::size_t slot = 0; slot < padded_; ++slot) {
+      fields_.push_back(number_of(sectors[by_bearing[std::min(slot, count - 1)]]));
+    }
+  };
+  add_field([](const Sector& sector) { return sector.apex.x; });
+  add_field([](const Sector& sector) { return sector.apex.y; });
+  add_field([](const Sector& sector) { return sector.left.x; });
+  add_field([](const Sector& sector) { return sector.left.y; });
+  add_field([](const Sector& sector) { return sector.right.x; });
+  add_field([](const Sector& sector) { return sector.right.y; });
 
-  first_.resize(2 * kBearingBins + 2, static_cast<std::uint32_t>(padded + count));
+  first_.resize(2 * kBearingBins + 2, static_cast<std::uint32_t>(padded_ + count));
   for (std::size_t bin = 0, slot = 0; bin < kBearingBins; ++bin) {
     const double from_rad = (static_cast<double>(bin) / kBearingBins * 2 - 1) * M_PI;
     while (bin > 0 && slot < count && bearings_rad[by_bearing[slot]] < from_rad) ++slot;
     first_[bin] = static_cast<std::uint32_t>(slot);
-    first_[kBearingBins + bin] = static_cast<std::uint32_t>(padded + slot);
+    first_[kBearingBins + bin] = static_cast<std::uint32_t>(padded_ + slot);
   }
 }
 

@@ -17,26 +17,46 @@ constexpr std::size_t kNarrowBlock = 4;
 constexpr std::size_t kWideBlock = 8;
 ///@}
 
-/// Beams of a batch as restrict pointers, which the loops below need to be vectorised.
-struct Beams {
+/// Rays of a batch as restrict pointers, which the loops below need to be vectorised.
+struct RayBeams {
   const double* __restrict x;
   const double* __restrict y;
   const double* __restrict left_x;
   const double* __restrict left_y;
-  const double* __restrict right_x;
-  const double* __restrict right_y;
   double* __restrict distance;
   double* __restrict body;
+
+  /// @param fields BeamBatch::Field, each of `padded` numbers
+  RayBeams(double* fields, std::size_t padded)
+      : x(fields),
+        y(fields + padded),
+        left_x(fields + 2 * padded),
+        left_y(fields + 3 * padded),
+        distance(fields + 6 * padded),
+        body(fields + 7 * padded) {}
+};
+
+/// The same of sectors.
+struct SectorBeams : RayBeams {
+  const double* __restrict right_x;
+  const double* __restrict right_y;
   double* __restrict towards_x;
   double* __restrict towards_y;
+
+  SectorBeams(double* fields, std::size_t padded)
+      : RayBeams(fields, padded),
+        right_x(fields + 4 * padded),
+        right_y(fields + 5 * padded),
+        towards_x(fields + 8 * padded),
+        towards_y(fields + 9 * padded) {}
 };
 
 /// Whether a hit at `t` is nearer than that of beam i, or equally near with a lower body.
-[[gnu::always_inline]] inline bool isBetter(const Beams& beams, std::size_t i, double t, double body) {
+[[gnu::always_inline]] inline bool isBetter(const RayBeams& beams, std::size_t i, double t, double body) {
   return (t < beams.distance[i]) | ((t == beams.distance[i]) & (body < beams.body[i]));
 }
 
-[[gnu::always_inline]] inline void keepRay(const Beams& beams, std::size_t i, double t, double body) {
+[[gnu::always_inline]] inline void keepRay(const RayBeams& beams, std::size_t i, double t, double body) {
   const bool better = isBetter(beams, i, t, body);
   beams.distance[i] = better ? t : beams.distance[i];
   beams.body[i] = better ? body : beams.body[i];
@@ -45,7 +65,7 @@ struct Beams {
 /// Keeps the nearest point of a solid in sector i: the nearest point of its outline to the apex, or a point where an
 /// edge of the sector enters it, as nearestInSector() does.
 /// @param near distance of the outline's nearest point, which lies at (near_x, near_y) from the apex
-[[gnu::always_inline]] inline void keepSector(const Beams& s, std::size_t i, double near, double near_x, double near_y,
+[[gnu::always_inline]] inline void keepSector(const SectorBeams& s, std::size_t i, double near, double near_x, double near_y,
                                               double on_left, double on_right, double body) {
   const bool is_inside =
       (s.right_x[i] * near_y - s.right_y[i] * near_x >= 0) & (near_x * s.left_y[i] - near_y * s.left_x[i] >= 0);
@@ -66,6 +86,8 @@ struct Beams {
 
 /// A ray is stored as a sector with its direction as the left edge.
 struct RayKernel {
+  using Beams = RayBeams;
+
   [[gnu::always_inline]] static void circle(const Beams& rays, std::size_t i, const GridItem& s, double body) {
     keepRay(rays, i, intersectCircle(s.x - rays.x[i], s.y - rays.y[i], rays.left_x[i], rays.left_y[i], s.half_length_m),
             body);
@@ -80,6 +102,8 @@ struct RayKernel {
 
 /// As nearestInSector().
 struct SectorKernel {
+  using Beams = SectorBeams;
+
   [[gnu::always_inline]] static void circle(const Beams& s, std::size_t i, const GridItem& circle, double body) {
     const double ox = circle.x - s.x[i];
     const double oy = circle.y - s.y[i];

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +13,7 @@
 
 namespace robosim {
 
+struct BearingArrays;
 struct Candidates;
 
 /// Beams of a sensor at one height with nearby origins, in the frame of their carrier, such as those of a laser or of a
@@ -30,22 +33,15 @@ class BeamFan {
  private:
   friend class BeamBatch;
 
-  /// Points or directions by slot, padded to whole blocks with the last one.
-  struct Vectors {
-    std::vector<double> x, y;
-    void add(double to_x, double to_y) {
-      x.push_back(to_x);
-      y.push_back(to_y);
-    }
-  };
-
   bool is_wide_ = false;  ///< whether the beams are sectors
   double z_m_ = 0;
   mrpt::math::TPoint2D middle_;  ///< of the beams' origins
   double spread_m_ = 0;          ///< from the middle to the farthest origin
   mrpt::math::TPoint2D facing_;  ///< unit vector within 90° of all directions in the beams; (0, 0) when there is none
-  /// By slot: the beams sorted counter-clockwise. A ray has its direction as both edges.
-  Vectors origin_, left_, right_;
+  std::size_t padded_ = 0;  ///< number of beams, in whole blocks
+  /// By slot, the beams sorted counter-clockwise, padded with the last one: x and y of their origins, of their left edges
+  /// and of their right edges, one array after the other. A ray has its direction as both edges.
+  std::vector<double> fields_;
   std::vector<std::uint32_t> slot_;  ///< by beam
   std::size_t block_ = 0;            ///< beams that are intersected with a solid together
   float half_width_rad_ = 0;         ///< of the widest beam
@@ -65,6 +61,11 @@ struct MovedRays {
 /// Beams of a fan at one pose in the world, cast together by Scene::cast(). May be reused for many fans and poses.
 class BeamBatch {
  public:
+  BeamBatch();
+  ~BeamBatch();
+  BeamBatch(const BeamBatch&) = delete;
+  BeamBatch& operator=(const BeamBatch&) = delete;
+
   /// Value of body() for a beam without a hit. Lower than any body, so that a hit exactly at the range is not kept.
   static constexpr std::int64_t kNothing = -1;
 
@@ -79,22 +80,31 @@ class BeamBatch {
   /// Whether Scene::cast() found no solid that the beams may hit.
   bool hasNoCandidates() const { return !is_initialized_; }
   /// Distance [m] from the origin of beam `i` to its hit, or the range.
-  double distance(std::size_t i) const { return is_initialized_ ? distance_[fan_->slot_[i]] : farthest_m_; }
+  double distance(std::size_t i) const { return is_initialized_ ? field(Field::distance)[fan_->slot_[i]] : farthest_m_; }
   /// The same of all beams, sorted by bearing (BeamFan::slotOf()), then unused ones; undefined if hasNoCandidates().
-  std::span<const double> distancesBySlot() const { return distance_; }
+  std::span<const double> distancesBySlot() const { return {field(Field::distance), fan_->padded_}; }
   std::int64_t body(std::size_t i) const {
-    return is_initialized_ ? static_cast<std::int64_t>(body_[fan_->slot_[i]]) : kNothing;
+    return is_initialized_ ? static_cast<std::int64_t>(field(Field::body)[fan_->slot_[i]]) : kNothing;
   }
   /// Vector from the origin of sector `i` to its nearest point, world frame; undefined without a hit and for rays.
-  mrpt::math::TPoint2D towards(std::size_t i) const { return {towards_.x[fan_->slot_[i]], towards_.y[fan_->slot_[i]]}; }
+  mrpt::math::TPoint2D towards(std::size_t i) const {
+    const std::size_t slot = fan_->slot_[i];
+    return {field(Field::towards_x)[slot], field(Field::towards_y)[slot]};
+  }
 
  private:
   friend class Scene;
 
+  /// By slot, as in the fan, one array after the other. A body is a double, so that it is compared in the same vectors as
+  /// distances.
+  enum class Field : std::uint8_t { x, y, left_x, left_y, right_x, right_y, distance, body, towards_x, towards_y, count };
+  const double* field(Field which) const { return fields_.data() + static_cast<std::size_t>(which) * fan_->padded_; }
+  double* field(Field which) { return fields_.data() + static_cast<std::size_t>(which) * fan_->padded_; }
+
   /// Distance [m] from the centre beyond which no solid can change the result.
   double reach() const { return farthest_m_ + spread_m_; }
   /// Intersects solids with all beams that may hit them.
-  void intersect(const Candidates& candidates);
+  void intersect(Candidates& candidates);
   /// Computes the beams in the world. Deferred until the first intersect(), because most short-range sensors have no
   /// candidates.
   void initialize();
@@ -110,10 +120,8 @@ class BeamBatch {
   double z_m_ = 0;
   double spread_m_ = 0;    ///< farthest origin from the centre
   double farthest_m_ = 0;  ///< the largest current distance of all beams
-  // By slot, as in the fan. A body is a double, so that it is compared in the same vectors as distances.
-  BeamFan::Vectors origin_, left_, right_;
-  std::vector<double> distance_, body_;
-  BeamFan::Vectors towards_;
+  std::vector<double> fields_;
+  std::unique_ptr<BearingArrays> arrays_;  ///< memory of intersect()
 };
 
 }  // namespace robosim

@@ -16,9 +16,14 @@ namespace robosim {
 struct Candidates {
   static constexpr std::size_t kCapacity = 32;
 
-  std::array<const GridItem*, kCapacity> item;
+  std::array<const GridItem*, kCapacity + 3> item;  ///< those from `count` on have no effect
   std::array<std::uint32_t, kCapacity> body;
   std::size_t count = 0;
+
+  void add(const GridItem& solid, std::uint32_t number) {
+    item[count] = &solid;
+    body[count++] = number;
+  }
 
   /// Branch-free, because whether a solid is a candidate is unpredictable.
   void addIf(bool condition, const GridItem& solid, std::uint32_t number) {
@@ -27,6 +32,8 @@ struct Candidates {
     count += condition ? 1 : 0;
   }
   bool isFull() const { return count == kCapacity; }
+  /// Sets the next three items, for code that reads four at a time. @pre not empty
+  void pad() { item[count] = item[count + 1] = item[count + 2] = item[0]; }
 };
 
 /// Bins of equal width over a full turn from bearing -π: 0.5° each.
@@ -80,16 +87,15 @@ constexpr float kBearingSlack_rad = 5e-4F;
 
 /// Converts the candidates to single precision, and selects those at a height by shape. Four at a time: their items are
 /// transposed in registers.
+/// @pre candidates.pad()
 /// @tparam kDisc whether findBins() computes covering discs, which have no axis
 template <bool kDisc>
 [[gnu::always_inline]] inline CandidatesByShape gather(const Candidates& candidates, const CullFrame& frame, double z_m,
                                                        BearingArrays& to) {
   CandidatesByShape found;
   for (std::size_t k = 0; k < candidates.count; k += 4) {
-    const auto item = [&](std::size_t i) -> const GridItem& {
-      return *candidates.item[k + i < candidates.count ? k + i : k];
-    };
-    const ItemsOfFour items(item(0), item(1), item(2), item(3));
+    const auto* const item = &candidates.item[k];
+    const ItemsOfFour items(*item[0], *item[1], *item[2], *item[3]);
     storeFloats(items.x - frame.x, to.x + k);
     storeFloats(items.y - frame.y, to.y + k);
     if constexpr (!kDisc) {

@@ -144,6 +144,7 @@ void expectBearingsOfEveryHit(double precision) {
     Candidates candidates;
     candidates.count = 0;
     for (const auto& item : items) candidates.addIf(true, item, 0);
+    candidates.pad();
     const double turn_rad = rng.uniform(-M_PI, M_PI), spread_m = rng.below(2) ? 0 : rng.uniform(0, 0.5);
     const CullFrame frame{at.x,
                           at.y,
