@@ -152,6 +152,31 @@ void Scene::updateNeighbours(std::size_t i, double reach_m) {
 
 std::size_t Scene::neighbourCount(std::size_t i) const { return index_->neighbours[i].size(); }
 
+namespace {
+
+/// Adds the neighbours of the owner of beams that the beams may hit.
+/// @param intersect makes room for candidates, and may reduce reach()
+/// @return whether there are no further solids that they may hit
+template <typename Reach, typename MayContain, typename Intersect>
+bool addNeighbours(const NeighbourList& list, const GridIndex& grid, const TPoint2D& from, const Reach& reach,
+                   const MayContain& may_contain, Candidates& candidates, const Intersect& intersect) {
+  const GridItem* const items = grid.items().data();
+  for (auto left = list.nearestFirst(); !left.empty();) {
+    const float limit_m = list.limitOf(from, reach());
+    const auto together = left.first(std::min(left.size(), Candidates::kCapacity - candidates.count));
+    for (const auto& neighbour : together) {
+      if (neighbour.nearest_m > limit_m) return true;
+      const GridItem& item = items[neighbour.solid];
+      if (may_contain(item)) candidates.add(item, grid.numberOf(neighbour.solid));
+    }
+    left = left.subspan(together.size());
+    if (candidates.isFull()) intersect();
+  }
+  return list.covers(from, reach());
+}
+
+}  // namespace
+
 void Scene::cast(BeamBatch& batch, BodyId owner) const {
   if (batch.size() == 0) return;
   const GridIndex& grid = index_->stationary;
@@ -162,30 +187,38 @@ void Scene::cast(BeamBatch& batch, BodyId owner) const {
     if (candidates.count > 0) batch.intersect(candidates);
     candidates.count = 0;
   };
-  const auto add_if = [&](bool is_candidate, const GridItem& item, BodyId body) {
-    candidates.addIf(is_candidate & (body != owner), item, static_cast<std::uint32_t>(body));
+  const auto add = [&](const GridItem& item, std::uint32_t body) {
+    candidates.addIf(BodyId{body} != owner, item, body);
     if (candidates.isFull()) intersect();
   };
-  const bool is_all_round = half_plane.isEverything();
-  const auto add = [&](std::uint32_t i) {
-    const GridItem& item = grid.items()[i];
-    add_if(is_all_round || half_plane.mayContain(item), item, BodyId{grid.numberOf(i)});
-  };
   const auto reach = [&] { return batch.reach(); };
-  if (!index_->visitNeighbours(owner, batch.center_, reach, add)) {
+  const auto add_neighbours = [&](const NeighbourList& list) {
+    if (half_plane.isEverything()) {
+      return addNeighbours(
+          list, grid, batch.center_, reach, [](const GridItem&) { return true; }, candidates, intersect);
+    }
+    return addNeighbours(
+        list, grid, batch.center_, reach, [&](const GridItem& item) { return half_plane.mayContain(item); }, candidates,
+        intersect);
+  };
+  const NeighbourList* const neighbours = index_->neighboursOf(owner);
+  if (!neighbours || !add_neighbours(*neighbours)) {
     VisitedBodies& visited = VisitedBodies::begin(grid.items().size());
     const CellHalfPlaneCull ahead(half_plane, grid.low(), grid.cellSize());
     visitOutwards(grid, batch.center_, reach, [&](int column, int row) {
       if (!ahead.mayContain(column, row) && !grid.isBorderCell(column, row)) return;
       grid.visitCell(column, row, [&](std::uint32_t i) {
-        if (visited.isFirst(i)) add(i);
+        const GridItem& item = grid.items()[i];
+        if (visited.isFirst(i) && (half_plane.isEverything() || half_plane.mayContain(item))) {
+          add(item, grid.numberOf(i));
+        }
       });
     });
   }
   const RangeCull surroundings(half_plane, batch.reach(), moving.middle());
-  const std::span<const GridItem> items = moving.items();
+  const GridItem* const items = moving.items().data();
   const std::uint32_t first_moving = index_->firstMoving();
-  moving.visitNear(surroundings, [&](std::uint32_t i) { add_if(true, items[i], BodyId{first_moving + i}); });
+  moving.visitNear(surroundings, [&](std::uint32_t i) { add(items[i], first_moving + i); });
   intersect();
 }
 
@@ -198,10 +231,8 @@ void Scene::clip(Path& path, double radius_m, const HeightSpan& heights, BodyId 
     if (item.distanceTo(start) > reach_m || !item.heights.overlaps(heights)) return;
     path.end_fraction = std::min(path.end_fraction, firstContact(path, radius_m, item.solid().outline));
   };
-  if (index_->visitNeighbours(
-          owner, start, [&] { return reach_m; }, clip_at)) {
-    return;
-  }
+  const NeighbourList* const neighbours = index_->neighboursOf(owner);
+  if (neighbours && neighbours->visitNear(start, reach_m, clip_at)) return;
   grid.visitArea({start.x - reach_m, start.x + reach_m, start.y - reach_m, start.y + reach_m}, clip_at);
 }
 

@@ -19,11 +19,10 @@ struct SceneIndex {
     const auto i = static_cast<std::uint32_t>(body);
     return i < firstMoving() ? stationary.items()[stationary.indexOf(i)] : moving.items()[i - firstMoving()];
   }
-  /// As NeighbourList::visitNear(), with the neighbours of a body: none unless it is a moving solid.
-  template <typename Reach, typename Visit>
-  bool visitNeighbours(BodyId owner, const mrpt::math::TPoint2D& from, const Reach& reach, const Visit& visit) const {
+  /// The neighbours of a body; null unless it is a moving solid.
+  const NeighbourList* neighboursOf(BodyId owner) const {
     const std::size_t i = static_cast<std::uint32_t>(owner) - firstMoving();
-    return i < neighbours.size() && neighbours[i].visitNear(from, reach, visit);
+    return i < neighbours.size() ? &neighbours[i] : nullptr;
   }
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "geometry/index/culling.h"
@@ -46,6 +48,28 @@ struct alignas(64) CellPack {
   template <typename Visit>
   void visit(const Visit& visit) const {
     for (std::size_t i = 0; i < kCapacity && index[i] < kNoSolid; ++i) visit(index[i]);
+  }
+
+  /// Calls visit(index) for the solids that may lie within `reach_m` of a point, which is relative to the middle of the
+  /// grid and inside the grid. Conservative: no false negatives.
+  template <typename Visit>
+  void visitNear(float at_x, float at_y, float reach_m, const Visit& visit) const {
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < kCapacity; i += 4) {
+      const auto four = [i](const float* field, FloatQuad& numbers) __attribute__((always_inline)) {
+        std::memcpy(&numbers, field + i, sizeof numbers);
+      };
+      FloatQuad dx, dy, negative_reach;
+      four(x, dx);
+      four(y, dy);
+      four(negative_reach_m, negative_reach);
+      dx -= at_x;
+      dy -= at_y;
+      const FloatQuad far_m = reach_m - negative_reach;
+      // The radius is negative for unused entries, whose square may be infinite.
+      found |= signsOf((dx * dx + dy * dy <= far_m * far_m) & (far_m >= 0)) << i;
+    }
+    for (; found != 0; found &= found - 1) visit(index[std::countr_zero(found)]);
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel_executor.h"
+#include "geometry/casting/double_pair.h"
 #include "geometry/index/culling.h"
 #include "geometry/index/grid_index.h"
 #include "geometry/shapes/ray.h"
@@ -50,10 +51,12 @@ class CenterIndex {
   /// Calls visit(index) once for each solid that a test may contain, four of which are tested together.
   template <typename Visit>
   void visitNear(const RangeCull& cull, const Visit& visit) const {
+    const Entry* const entries = entries_.data();
+    const RangeCull kept = cull;  // so that its vectors may stay in registers
     forRows(cull.bounds(), [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; i += kTogether) {
-        const Entry* const four = &entries_[i];
-        std::uint32_t found = cull.mayContain(FourCullDiscs(four));
+        const Entry* const four = entries + i;
+        std::uint32_t found = kept.mayContain(FourCullDiscs(four));
         if (end - i < kTogether) found &= (1U << (end - i)) - 1;
         for (; found != 0; found &= found - 1) visit(four[std::countr_zero(found)].index);
       }
@@ -114,11 +117,19 @@ class CenterIndex {
   /// Calls visit(begin, end) for the entries in the cells of each row that may overlap `area`.
   template <typename Visit>
   void forRows(const Bounds2D& area, const Visit& visit) const {
-    const int left = column(area.x_min - reach_max_m_), right = column(area.x_max + reach_max_m_);
-    const int top = row(area.y_max + reach_max_m_);
-    for (int r = row(area.y_min - reach_max_m_); r <= top; ++r) {
-      visit(begin_[cellAt(r, left)], begin_[cellAt(r, right) + 1]);
-    }
+    // As column() and row(), for both axes together.
+    const DoublePair low{area.x_min - reach_max_m_, area.y_min - reach_max_m_};
+    const DoublePair high{area.x_max + reach_max_m_, area.y_max + reach_max_m_};
+    const DoublePair origin{area_.x_min, area_.y_min};
+    const DoublePair last{last_column_, last_row_};
+    const DoublePair zero{0, 0};
+    const DoublePair first_cell = min(last, max((low - origin) * per_m_, zero));
+    const DoublePair last_cell = min(last, max((high - origin) * per_m_, zero));
+    const auto width = static_cast<std::ptrdiff_t>(last_cell[0]) - static_cast<std::ptrdiff_t>(first_cell[0]) + 1;
+    const auto rows = static_cast<std::ptrdiff_t>(last_cell[1]) - static_cast<std::ptrdiff_t>(first_cell[1]) + 1;
+    const std::uint32_t* begin = begin_.data() + static_cast<std::ptrdiff_t>(first_cell[1]) * columns_ +
+                                 static_cast<std::ptrdiff_t>(first_cell[0]);
+    for (std::ptrdiff_t r = 0; r < rows; ++r, begin += columns_) visit(begin[0], begin[width]);
   }
   template <typename Visit>
   void visitRow(int row, double x_min, double x_max, const Visit& visit) const {
@@ -142,6 +153,7 @@ class CenterIndex {
   Bounds2D area_;
   double cell_m_ = 1, per_m_ = 1;
   int columns_ = 1, rows_ = 1;
+  double last_column_ = 0, last_row_ = 0;
   double reach_max_m_ = 0;
   Bounds2D centers_;                  ///< bounds of all centres
   std::vector<std::uint32_t> begin_;  ///< first entry per cell, and the end

@@ -72,6 +72,27 @@ class GridIndex {
     }
   }
 
+  /// Calls visit(index) for the solids that may lie within `reach_m` of a point; for one in several cells, several times.
+  template <typename Visit>
+  void visitNear(const mrpt::math::TPoint2D& at, double reach_m, const Visit& visit) const {
+    const Bounds2D area{at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m};
+    // Beyond the grid, the margin of the packs' discs does not cover the rounding error.
+    if (!area_.contains(at)) return visitArea(area, visit);
+    const auto at_x = static_cast<float>(at.x - middle_.x);
+    const auto at_y = static_cast<float>(at.y - middle_.y);
+    const auto wider_m = static_cast<float>(reach_m * (1 + kCullRelativeError));
+    const int left = column(area.x_min), right = column(area.x_max);
+    const int top = row(area.y_max);
+    for (int y = row(area.y_min); y <= top; ++y) {
+      const CellPack* const first = &packs_[cellAt(left, y)];
+      for (const CellPack* cell = first; cell <= first + (right - left); ++cell) {
+        const CellPack* pack = cell;
+        for (; pack->hasNext(); pack = &packs_[pack->next()]) pack->visitNear(at_x, at_y, wider_m, visit);
+        pack->visitNear(at_x, at_y, wider_m, visit);
+      }
+    }
+  }
+
   /// The first pack of each cell, row by row from the lower left, followed by the linked packs.
   std::span<const CellPack> packs() const { return packs_; }
   /// Rectangles of a pack's solids; null unless many solids are elongated, so that their discs would cover much free

@@ -24,8 +24,9 @@ void NeighbourList::update(const GridIndex& solids, const mrpt::math::TPoint2D& 
   covered_m_ = reach_m + kSkin_m;
   const double covered_m = covered_m_;
   std::size_t count = 0;
-  solids.visitArea({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](std::uint32_t i) {
-    const double nearest_m = solids.items()[i].distanceTo(at);
+  const GridItem* const items = solids.items().data();
+  solids.visitNear(at, covered_m, [&](std::uint32_t i) {
+    const double nearest_m = items[i].distanceTo(at);
     const auto rounded_m = static_cast<float>(nearest_m * kRoundDown);
     if (count == found.size()) found.resize(2 * count + 64);
     found[count] = std::uint64_t{std::bit_cast<std::uint32_t>(rounded_m)} << 32 | i;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "geometry/index/grid_index.h"
@@ -17,24 +18,35 @@ class NeighbourList {
   void update(const GridIndex& solids, const mrpt::math::TPoint2D& at, double reach_m);
 
   std::size_t size() const { return nearest_first_.size(); }
-  /// Calls visit(index) for the solids that may lie within reach() of `from`, nearest first. reach() may decrease
-  /// between calls.
-  /// @return whether the list covers reach(); if not, there may be further solids
-  template <typename Reach, typename Visit>
-  bool visitNear(const mrpt::math::TPoint2D& from, const Reach& reach, const Visit& visit) const {
-    const double drift_m = driftTo(from);
-    for (const auto& neighbour : nearest_first_) {
-      if (neighbour.nearest_m - drift_m > reach()) return true;
-      visit(neighbour.solid);
-    }
-    return reach() + drift_m <= covered_m_;
-  }
-
- private:
+  /// A solid near the owner.
   struct Neighbour {
     float nearest_m;      ///< distance from the anchor to the solid's outline, rounded down
     std::uint32_t solid;  ///< index into GridIndex::items()
   };
+  std::span<const Neighbour> nearestFirst() const { return nearest_first_; }
+  /// Upper bound of Neighbour::nearest_m of the solids within reach of a point.
+  float limitOf(const mrpt::math::TPoint2D& from, double reach_m) const {
+    // The product rounds up what the conversion may round down.
+    return static_cast<float>((reach_m + driftTo(from)) * (1 + 1e-7));
+  }
+  /// Whether the list has all solids within reach of a point.
+  bool covers(const mrpt::math::TPoint2D& from, double reach_m) const {
+    return reach_m + driftTo(from) <= covered_m_;
+  }
+
+  /// Calls visit(index) for the solids that may lie within `reach_m` of `from`, nearest first.
+  /// @return covers()
+  template <typename Visit>
+  bool visitNear(const mrpt::math::TPoint2D& from, double reach_m, const Visit& visit) const {
+    const float limit_m = limitOf(from, reach_m);
+    for (const Neighbour& neighbour : nearest_first_) {
+      if (neighbour.nearest_m > limit_m) break;
+      visit(neighbour.solid);
+    }
+    return covers(from, reach_m);
+  }
+
+ private:
   static constexpr double kSlack_m = 1e-9;  ///< exceeds the rounding error
 
   /// Distance [m] from the anchor to a point; infinite for an empty list.
