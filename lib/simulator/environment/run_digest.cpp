@@ -16,10 +16,11 @@ constexpr std::size_t kDigestChunk = RunDigest::kRobotsPerChunk;
 class Bytes {
  public:
   void clear() { size_ = 0; }
-  void add(const void* data, std::size_t size) {
-    if (bytes_.size() - size_ < size) bytes_.resize(2 * bytes_.size() + size);
-    std::memcpy(bytes_.data() + size_, data, size);
-    size_ += size;
+  void add(const void* data, std::size_t size) { std::memcpy(extend(size), data, size); }
+  /// Appends a value of a size that the compiler knows.
+  template <typename T>
+  void addValue(const T& value) {
+    std::memcpy(extend(sizeof value), &value, sizeof value);
   }
   void add(const std::string& text) {
     const std::uint64_t size = text.size();
@@ -27,6 +28,9 @@ class Bytes {
     add(text.data(), text.size());
   }
   void add(const Measurement& measurement) {
+    // The most frequent kinds first: std::visit() calls a function that is not inlined.
+    if (const auto* echoes = std::get_if<Echoes>(&measurement)) return addNumbers(*echoes);
+    if (const auto* odometry = std::get_if<Odometry>(&measurement)) return addNumbers(*odometry);
     std::visit([this](const auto& kind) { addNumbers(kind); }, measurement);
   }
   void addTo(Digest& digest) const { digest.addBytes(bytes_.data(), size_); }
@@ -40,7 +44,10 @@ class Bytes {
       // Without a lateral speed of 0, which most drives always have, digests are those of versions that had none.
       if constexpr (std::is_same_v<M, Odometry>) {
         constexpr std::size_t kWithoutLateral = sizeof(Odometry) - sizeof(Odometry::lateral_mps);
-        if (measurement.lateral_mps == 0) return add(records.data(), kWithoutLateral);
+        if (measurement.lateral_mps == 0) {
+          std::memcpy(extend(kWithoutLateral), records.data(), kWithoutLateral);
+          return;
+        }
       }
       add(records.data(), records.size_bytes());
     } else if constexpr (requires { Description<M>::exactBytes(measurement); }) {
@@ -48,6 +55,14 @@ class Bytes {
         if (!part.empty()) add(part.data(), part.size());
       }
     }
+  }
+
+  /// @return the place of further bytes
+  unsigned char* extend(std::size_t size) {
+    if (bytes_.size() - size_ < size) bytes_.resize(2 * bytes_.size() + size);
+    unsigned char* const at = bytes_.data() + size_;
+    size_ += size;
+    return at;
   }
 
   std::vector<unsigned char>
@@ -69,7 +84,7 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
                             static_cast<double>(state.laser_pan_rad[i]),
                             static_cast<double>(state.activity[i]),
                             static_cast<double>(state.stalled[i])};
-  bytes.add(numbers, sizeof numbers);
+  bytes.addValue(numbers);
   if (!state.drives.empty()) bytes.add(&state.drives[i], sizeof state.drives[i]);
   for (const auto& measurement : state.readings[i].measurements) bytes.add(measurement);
   for (const auto& message : state.readings[i].inbox) {
