@@ -25,7 +25,7 @@ Robot::Robot(Hardware& hardware) : hardware_(hardware) {
 }
 
 const Measurement* Robot::measurement(SensorKind kind) const {
-  const auto found = slot(kind);
+  const auto found = slotOf(kind);
   return found ? &readings().measurements[*found] : nullptr;
 }
 
@@ -38,33 +38,33 @@ const Measurement* Robot::measurement(const std::string& label) const {
 }
 
 const Echoes& Robot::echoes(SensorKind kind) const {
-  const auto found = slot(kind);
+  const auto found = slotOf(kind);
   return found ? std::get<Echoes>(readings().measurements[*found]) : kNoEchoes;
 }
 
 std::optional<double> Robot::scalar(SensorKind kind) const {
-  const auto found = slot(kind);
+  const auto found = slotOf(kind);
   if (!found) return std::nullopt;
   return std::get<Scalar>(readings().measurements[*found]).value;
 }
 
 const std::vector<std::uint8_t>& Robot::bumper() const {
-  const auto found = slot(SensorKind::bumper);
+  const auto found = slotOf(SensorKind::bumper);
   return found ? std::get<Contacts>(readings().measurements[*found]).pressed : kNoContacts.pressed;
 }
 
 const Odometry& Robot::odometry() const {
-  const auto found = slot(SensorKind::odometry);
+  const auto found = slotOf(SensorKind::odometry);
   return found ? std::get<Odometry>(readings().measurements[*found]) : kAtStart;
 }
 
 const Image& Robot::image() const {
-  const auto found = slot(SensorKind::camera);
+  const auto found = slotOf(SensorKind::camera);
   return found ? std::get<Image>(readings().measurements[*found]) : kNoImage;
 }
 
 const Blobs& Robot::blobs() const {
-  const auto found = slot(SensorKind::blob_finder);
+  const auto found = slotOf(SensorKind::blob_finder);
   return found ? std::get<Blobs>(readings().measurements[*found]) : kNoBlobs;
 }
 

@@ -50,9 +50,15 @@ class Robot {
   const Measurement* measurement(SensorKind kind) const;
   /// Measurement of the sensor with a label; null for a robot without it. Takes time in proportion to the sensors.
   const Measurement* measurement(const std::string& label) const;
+  /// Index into Readings::measurements of the first sensor of a kind; nullopt for a robot without it. Here, because
+  /// controllers read sensors many times in a step.
+  std::optional<std::size_t> slotOf(SensorKind kind) const {
+    const int found = slot_of_kind_[static_cast<std::size_t>(kind)];
+    return found < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(found));
+  }
   /// Description of the first sensor of a kind; null for a robot without it.
   const SensorInfo* sensor(SensorKind kind) const {
-    const auto found = slot(kind);
+    const auto found = slotOf(kind);
     return found ? &(*info().sensors)[*found] : nullptr;
   }
   bool stalled() const { return readings().stalled; }
@@ -131,11 +137,6 @@ class Robot {
   const std::vector<RobotMessage>& inbox() const { return readings().inbox; }
 
  private:
-  /// Of the first sensor of a kind. Here, because controllers read sensors many times in a step.
-  std::optional<std::size_t> slot(SensorKind kind) const {
-    const int found = slot_of_kind_[static_cast<std::size_t>(kind)];
-    return found < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(found));
-  }
   std::optional<double> scalar(SensorKind kind) const;
   /// Commands the last command after a change of one of its devices.
   template <typename Change>

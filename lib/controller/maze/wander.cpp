@@ -19,16 +19,20 @@ struct Clearance {
   double ahead() const { return std::min(left, right); }
 };
 
-Clearance clearanceInFront(const Robot& robot) {
+/// @param info,readings of the robot: each call of its hardware is virtual
+Clearance clearanceInFront(const Robot& robot, const RobotInfo& info, const Readings& readings) {
   Clearance clearance;
-  const SensorKind kind = robot.sensor(SensorKind::sonar) ? SensorKind::sonar : SensorKind::infrared;
-  const SensorInfo* sensor = robot.sensor(kind);
-  if (!sensor) return clearance;
-  const double radius = robot.info().radius_m;
-  for (const Echo& echo : robot.echoes(kind)) {
-    const double x = echo.point_m.x, y = echo.point_m.y;
+  const auto sonar = robot.slotOf(SensorKind::sonar);
+  const auto slot = sonar ? sonar : robot.slotOf(SensorKind::infrared);
+  if (!slot) return clearance;
+  const SensorInfo& sensor = (*info.sensors)[*slot];
+  const double radius = info.radius_m;
+  const double half_lane = 1.5 * radius;
+  for (const Echo& echo : std::get<Echoes>(readings.measurements[*slot])) {
     // Ignores echoes beside the robot's lane.
-    if (x <= 0 || std::abs(y) > 1.5 * radius || !isEcho(*sensor, echo)) continue;
+    if (echo.point_m.x <= 0) continue;
+    const double x = echo.point_m.x, y = echo.point_m.y;
+    if (std::abs(y) > half_lane || !isEcho(sensor, echo)) continue;
     double& side = y >= 0 ? clearance.left : clearance.right;
     side = std::min(side, std::sqrt(x * x + y * y) - radius);
   }
@@ -39,11 +43,13 @@ Clearance clearanceInFront(const Robot& robot) {
 
 void Wander::step(Robot& robot) {
   if (recovery_.takesOver(robot)) return;
-  const MotionLimits& limits = robot.info().limits;
-  const double radius = robot.info().radius_m;
-  const std::uint64_t now = robot.stepNumber();
-  const Clearance clearance = clearanceInFront(robot);
-  const bool near = clearance.ahead() < kNear * radius || robot.stalled();
+  const RobotInfo& info = robot.info();
+  const Readings& readings = robot.readings();
+  const MotionLimits& limits = info.limits;
+  const double radius = info.radius_m;
+  const std::uint64_t now = readings.time.step;
+  const Clearance clearance = clearanceInFront(robot, info, readings);
+  const bool near = clearance.ahead() < kNear * radius || readings.stalled;
   // An obstacle met during a slight turn requires a new decision at once: a stall is reported for one step only.
   if (now >= turn_until_ || (near && std::abs(turn_) < kAvoidTurn)) {
     Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, 0, now);
@@ -57,7 +63,7 @@ void Wander::step(Robot& robot) {
   }
   double speed = limits.speed_max_mps;
   if (near) {
-    speed *= robot.stalled()
+    speed *= readings.stalled
                  ? 0
                  : std::clamp((clearance.ahead() / radius - kVeryNear) / (kNear - kVeryNear), 0.0, 1.0) * 0.5;
   } else {
