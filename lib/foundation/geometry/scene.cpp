@@ -161,8 +161,9 @@ template <typename Reach, typename MayContain, typename Intersect>
 bool addNeighbours(const NeighbourList& list, const GridIndex& grid, const TPoint2D& from, const Reach& reach,
                    const MayContain& may_contain, Candidates& candidates, const Intersect& intersect) {
   const GridItem* const items = grid.items().data();
+  const double drift_m = list.driftTo(from);
   for (auto left = list.nearestFirst(); !left.empty();) {
-    const float limit_m = list.limitOf(from, reach());
+    const float limit_m = NeighbourList::limitOf(reach() + drift_m);
     const auto together = left.first(std::min(left.size(), Candidates::kCapacity - candidates.count));
     for (const auto& neighbour : together) {
       if (neighbour.nearest_m > limit_m) return true;
@@ -172,7 +173,7 @@ bool addNeighbours(const NeighbourList& list, const GridIndex& grid, const TPoin
     left = left.subspan(together.size());
     if (candidates.isFull()) intersect();
   }
-  return list.covers(from, reach());
+  return list.covers(reach() + drift_m);
 }
 
 }  // namespace
@@ -192,8 +193,9 @@ void Scene::cast(BeamBatch& batch, BodyId owner) const {
     if (candidates.isFull()) intersect();
   };
   const auto reach = [&] { return batch.reach(); };
+  const bool is_all_round = half_plane.isEverything();
   const auto add_neighbours = [&](const NeighbourList& list) {
-    if (half_plane.isEverything()) {
+    if (is_all_round) {
       return addNeighbours(
           list, grid, batch.center_, reach, [](const GridItem&) { return true; }, candidates, intersect);
     }
@@ -209,7 +211,7 @@ void Scene::cast(BeamBatch& batch, BodyId owner) const {
       if (!ahead.mayContain(column, row) && !grid.isBorderCell(column, row)) return;
       grid.visitCell(column, row, [&](std::uint32_t i) {
         const GridItem& item = grid.items()[i];
-        if (visited.isFirst(i) && (half_plane.isEverything() || half_plane.mayContain(item))) {
+        if (visited.isFirst(i) && (is_all_round || half_plane.mayContain(item))) {
           add(item, grid.numberOf(i));
         }
       });

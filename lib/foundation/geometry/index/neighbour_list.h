@@ -24,35 +24,32 @@ class NeighbourList {
     std::uint32_t solid;  ///< index into GridIndex::items()
   };
   std::span<const Neighbour> nearestFirst() const { return nearest_first_; }
-  /// Upper bound of Neighbour::nearest_m of the solids within reach of a point.
-  float limitOf(const mrpt::math::TPoint2D& from, double reach_m) const {
-    // The product rounds up what the conversion may round down.
-    return static_cast<float>((reach_m + driftTo(from)) * (1 + 1e-7));
+  /// Distance [m] from the anchor, the point from which distances are measured, to another; infinite for an empty list.
+  double driftTo(const mrpt::math::TPoint2D& p) const {
+    return covered_m_ < 0 ? std::numeric_limits<double>::infinity() : (p - anchor_).norm() + kSlack_m;
   }
-  /// Whether the list has all solids within reach of a point.
-  bool covers(const mrpt::math::TPoint2D& from, double reach_m) const {
-    return reach_m + driftTo(from) <= covered_m_;
+  /// Upper bound of Neighbour::nearest_m of the solids within a distance of the anchor.
+  static float limitOf(double distance_m) {
+    return static_cast<float>(distance_m * (1 + 1e-7));  // the product rounds up what the conversion may round down
   }
+  /// Whether the list has all solids within a distance of the anchor.
+  bool covers(double distance_m) const { return distance_m <= covered_m_; }
 
   /// Calls visit(index) for the solids that may lie within `reach_m` of `from`, nearest first.
-  /// @return covers()
+  /// @return whether there are no further ones
   template <typename Visit>
   bool visitNear(const mrpt::math::TPoint2D& from, double reach_m, const Visit& visit) const {
-    const float limit_m = limitOf(from, reach_m);
+    const double distance_m = reach_m + driftTo(from);
+    const float limit_m = limitOf(distance_m);
     for (const Neighbour& neighbour : nearest_first_) {
       if (neighbour.nearest_m > limit_m) break;
       visit(neighbour.solid);
     }
-    return covers(from, reach_m);
+    return covers(distance_m);
   }
 
  private:
   static constexpr double kSlack_m = 1e-9;  ///< exceeds the rounding error
-
-  /// Distance [m] from the anchor to a point; infinite for an empty list.
-  double driftTo(const mrpt::math::TPoint2D& p) const {
-    return covered_m_ < 0 ? std::numeric_limits<double>::infinity() : (p - anchor_).norm() + kSlack_m;
-  }
 
   mrpt::math::TPoint2D anchor_;
   double covered_m_ = -1;  ///< the list contains all solids within this distance of the anchor
