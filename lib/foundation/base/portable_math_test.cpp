@@ -59,7 +59,8 @@ TEST(PortableMath, SinesAndCosinesOfManyAnglesAreThoseOfEach) {
       std::vector<double> angles_rad{0.0, -0.0, 1024, -1024, 1e-9, -1e-310, kPi / 4, -kPi / 2};
       if (count % 3 == 1) angles_rad.insert(angles_rad.end(), {1025, kInfinity, kNaN, 1e300});
       angles_rad.resize(std::min(count, angles_rad.size()));
-      while (angles_rad.size() < count) angles_rad.push_back(rng.below(4) == 0 ? anySize(rng, -40, 10) : rng.uniform(-7, 7));
+      while (angles_rad.size() < count)
+        angles_rad.push_back(rng.below(4) == 0 ? anySize(rng, -40, 10) : rng.uniform(-7, 7));
       std::vector<double> sines(count), cosines(count);
       sincos(angles_rad, sines.data(), cosines.data());
       for (std::size_t i = 0; i < count; ++i) {

@@ -109,8 +109,7 @@ class Lidar : public Sensor {
                       [&](std::size_t i, const auto&) { return Return{scan.distance_m[i]}; });
       }
       for (double& distance_m : scan.distance_m) distance_m = static_cast<double>(roundedLidarRange(distance_m));
-      setEchoes(fields_, EchoRule(info_), scan.distance_m,
-                std::get<Echoes>(readings[robot].measurements[slot]));
+      setEchoes(fields_, EchoRule(info_), scan.distance_m, std::get<Echoes>(readings[robot].measurements[slot]));
     }
   }
 

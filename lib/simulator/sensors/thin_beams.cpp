@@ -86,7 +86,7 @@ class ThinBeams : public Sensor {
   PlanarBeams beams_;
   BeamFields fields_;
   std::vector<BeamFields> fields_of_group_;  ///< PlanarBeams::groups(), by slot
-  Echoes no_echoes_;  ///< of all beams without pan and without hits
+  Echoes no_echoes_;                         ///< of all beams without pan and without hits
 };
 
 }  // namespace

@@ -65,9 +65,8 @@ template <auto kIntersect, std::size_t kBlock, typename Beams>
 /// @return the largest distance of all beams
 template <typename Kernel, std::size_t kBlock>
 [[gnu::always_inline]] inline double intersectAll(typename Kernel::Beams beams, std::size_t padded,
-                                                  const CullFrame* frame, double z_m,
-                                                  const std::uint32_t* first_of_bin, const Candidates* candidates,
-                                                  BearingArrays* bearings) {
+                                                  const CullFrame* frame, double z_m, const std::uint32_t* first_of_bin,
+                                                  const Candidates* candidates, BearingArrays* bearings) {
   const Blocks blocks{first_of_bin, padded / kBlock};
   BearingArrays& arrays = *bearings;
   // The covering disc suffices for wide gaps between beams.
@@ -194,8 +193,8 @@ void BeamBatch::intersect(Candidates& candidates) {
     return fan_->block_ == kNarrowBlock ? with(std::integral_constant<std::size_t, kNarrowBlock>())
                                         : with(std::integral_constant<std::size_t, kWideBlock>());
   };
-  farthest_m_ = fan_->is_wide_ ? intersect.template operator()<SectorKernel>()
-                               : intersect.template operator()<RayKernel>();
+  farthest_m_ =
+      fan_->is_wide_ ? intersect.template operator()<SectorKernel>() : intersect.template operator()<RayKernel>();
 }
 
 }  // namespace robosim

@@ -65,8 +65,8 @@ struct SectorBeams : RayBeams {
 /// Keeps the nearest point of a solid in sector i: the nearest point of its outline to the apex, or a point where an
 /// edge of the sector enters it, as nearestInSector() does.
 /// @param near distance of the outline's nearest point, which lies at (near_x, near_y) from the apex
-[[gnu::always_inline]] inline void keepSector(const SectorBeams& s, std::size_t i, double near, double near_x, double near_y,
-                                              double on_left, double on_right, double body) {
+[[gnu::always_inline]] inline void keepSector(const SectorBeams& s, std::size_t i, double near, double near_x,
+                                              double near_y, double on_left, double on_right, double body) {
   const bool is_inside =
       (s.right_x[i] * near_y - s.right_y[i] * near_x >= 0) & (near_x * s.left_y[i] - near_y * s.left_x[i] >= 0);
   // Of equally near edge points the left one wins, as in nearestInSector().

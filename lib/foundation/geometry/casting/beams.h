@@ -38,9 +38,9 @@ class BeamFan {
   mrpt::math::TPoint2D middle_;  ///< of the beams' origins
   double spread_m_ = 0;          ///< from the middle to the farthest origin
   mrpt::math::TPoint2D facing_;  ///< unit vector within 90° of all directions in the beams; (0, 0) when there is none
-  std::size_t padded_ = 0;  ///< number of beams, in whole blocks
-  /// By slot, the beams sorted counter-clockwise, padded with the last one: x and y of their origins, of their left edges
-  /// and of their right edges, one array after the other. A ray has its direction as both edges.
+  std::size_t padded_ = 0;       ///< number of beams, in whole blocks
+  /// By slot, the beams sorted counter-clockwise, padded with the last one: x and y of their origins, of their left
+  /// edges and of their right edges, one array after the other. A ray has its direction as both edges.
   std::vector<double> fields_;
   std::vector<std::uint32_t> slot_;  ///< by beam
   std::size_t block_ = 0;            ///< beams that are intersected with a solid together
@@ -80,7 +80,9 @@ class BeamBatch {
   /// Whether Scene::cast() found no solid that the beams may hit.
   bool hasNoCandidates() const { return !is_initialized_; }
   /// Distance [m] from the origin of beam `i` to its hit, or the range.
-  double distance(std::size_t i) const { return is_initialized_ ? field(Field::distance)[fan_->slot_[i]] : farthest_m_; }
+  double distance(std::size_t i) const {
+    return is_initialized_ ? field(Field::distance)[fan_->slot_[i]] : farthest_m_;
+  }
   /// The same of all beams, sorted by bearing (BeamFan::slotOf()), then unused ones; undefined if hasNoCandidates().
   std::span<const double> distancesBySlot() const { return {field(Field::distance), fan_->padded_}; }
   std::int64_t body(std::size_t i) const {
@@ -95,9 +97,21 @@ class BeamBatch {
  private:
   friend class Scene;
 
-  /// By slot, as in the fan, one array after the other. A body is a double, so that it is compared in the same vectors as
-  /// distances.
-  enum class Field : std::uint8_t { x, y, left_x, left_y, right_x, right_y, distance, body, towards_x, towards_y, count };
+  /// By slot, as in the fan, one array after the other. A body is a double, so that it is compared in the same vectors
+  /// as distances.
+  enum class Field : std::uint8_t {
+    x,
+    y,
+    left_x,
+    left_y,
+    right_x,
+    right_y,
+    distance,
+    body,
+    towards_x,
+    towards_y,
+    count
+  };
   const double* field(Field which) const { return fields_.data() + static_cast<std::size_t>(which) * fan_->padded_; }
   double* field(Field which) { return fields_.data() + static_cast<std::size_t>(which) * fan_->padded_; }
 

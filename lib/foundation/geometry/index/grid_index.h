@@ -72,7 +72,8 @@ class GridIndex {
     }
   }
 
-  /// Calls visit(index) for the solids that may lie within `reach_m` of a point; for one in several cells, several times.
+  /// Calls visit(index) for the solids that may lie within `reach_m` of a point; for one in several cells, several
+  /// times.
   template <typename Visit>
   void visitNear(const mrpt::math::TPoint2D& at, double reach_m, const Visit& visit) const {
     const Bounds2D area{at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m};

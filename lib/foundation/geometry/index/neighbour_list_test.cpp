@@ -17,8 +17,7 @@ struct Found {
 
 Found near(const GridIndex& grid, const NeighbourList& list, const mrpt::math::TPoint2D& from, double reach_m) {
   Found found;
-  found.is_complete =
-      list.visitNear(from, reach_m, [&](std::uint32_t i) { found.solids.push_back(grid.numberOf(i)); });
+  found.is_complete = list.visitNear(from, reach_m, [&](std::uint32_t i) { found.solids.push_back(grid.numberOf(i)); });
   return found;
 }
 
