@@ -109,7 +109,7 @@ void checkEdge(const World& world, const Fleet& fleet, Checked& checked) {
   std::vector<mrpt::math::TPoint2D> starts;
   for (const auto& robot : fleet.robots) {
     radius_m = std::min(radius_m, robot.info.radius_m);
-    heights.push_back(robot.body.heights());
+    heights.push_back(robot.body().heights());
     starts.emplace_back(robot.world_from_start.x, robot.world_from_start.y);
   }
   const auto& b = world.bounds;

@@ -101,7 +101,7 @@ class Source {
 
   HeightSpan heightsOfRobots() const {
     std::vector<HeightSpan> robots;
-    for (const auto& robot : loaded_.fleet.robots) robots.push_back(robot.body.heights());
+    for (const auto& robot : loaded_.fleet.robots) robots.push_back(robot.body().heights());
     return robotHeights(robots);
   }
 

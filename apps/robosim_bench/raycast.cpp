@@ -36,7 +36,7 @@ struct LaserWorld {
         floor{loaded.world.bounds, {}} {
     for (std::size_t i = 0; i < kRobotsOfPicture; ++i) {
       const FleetRobot& robot = loaded.fleet.robots[i];
-      Body body = robot.body;
+      Body body = robot.body();
       body.world_from_body = robot.world_from_start;
       scene.place(i, body.solid());
       frames.emplace_back(robot.world_from_start, body.heights().z_min_m);

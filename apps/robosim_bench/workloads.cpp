@@ -99,6 +99,8 @@ World makeWorld(const Workload& workload, std::size_t robots, std::uint64_t seed
   const double scale = workload.scale;
   const double half_m = scale * std::sqrt(kSquarePerRobot_m2 * static_cast<double>(robots)) / 2;
   world.bounds = {-half_m - scale, half_m + scale, -half_m - scale, half_m + scale};
+  world.objects.reserve(4 + robots + (robots + 3) / 4);
+  world.robots.reserve(robots);
   for (const double side : {-1.0, 1.0}) {
     addObject(world,
               {.shape = Cube{scale, 2 * (half_m + scale)}, .world_from_body = {side * (half_m + scale / 2), 0, 0}});
@@ -171,6 +173,7 @@ LoadedWorld makeWorldToRun(const Workload& workload, std::size_t robots, std::ui
   ErrorList errors;
   made.fleet = buildFleet(made.world, workload.name, types, {}, errors);
   errors.throwIfAny();
+  made.world.robots = std::vector<RobotPlacement>();  // as loadWorldToRun() does
   return made;
 }
 

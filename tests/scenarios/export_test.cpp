@@ -50,7 +50,7 @@ void expectAgreesWithScene(const COccupancyGridMap2D& grid, const std::string& w
     for (const auto& solid : unknownSolids(map)) unknown.push_back(solid);
   }
   std::vector<HeightSpan> robots;
-  for (const auto& robot : loaded.fleet.robots) robots.push_back(robot.body.heights());
+  for (const auto& robot : loaded.fleet.robots) robots.push_back(robot.body().heights());
   const HeightSpan heights = robotHeights(robots);
   const double cell_m = grid.getResolution();
   std::vector<BodyId> near;

@@ -29,7 +29,6 @@ inline LoadedWorld rowOfRobots(int robots) {
     FleetRobot robot = type;
     robot.info.name = "P" + std::to_string(i + 1);
     robot.world_from_start = {-10.0 + 2 * i, 0, 0};
-    robot.body.world_from_body = robot.world_from_start;
     made.fleet.robots.push_back(robot);
   }
   return made;

@@ -30,7 +30,6 @@ std::unique_ptr<Environment> robotAlone(const std::string& type, const mrpt::mat
   Fleet fleet;
   fleet.robots.push_back(shippedRobot(type));
   fleet.robots.front().world_from_start = start;
-  fleet.robots.front().body.world_from_body = start;
   return std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
 }
 

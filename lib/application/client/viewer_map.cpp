@@ -31,7 +31,7 @@ std::shared_ptr<const MapWorld> mapOf(const ViewedRun& viewed_run) {
     map->objects.push_back(mapped);
   }
   for (const auto& robot : viewed_run.world.fleet.robots) {
-    map->robots.push_back({robot.info.name, robot.info.radius_m, robot.body.color});
+    map->robots.push_back({robot.info.name, robot.info.radius_m, robot.color});
   }
   return map;
 }

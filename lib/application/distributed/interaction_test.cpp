@@ -66,7 +66,8 @@ TEST(Interaction, IsUnlimitedByWhatDependsOnRobotsAnywhere) {
   EXPECT_EQ(cause(camera), "sensor 'camera' of robot 'r0' may measure robots at any distance");
   Scenario hot;
   hot.robot();
-  hot.fleet.robots[0].body.heat_celsius = 30;
+  hot.fleet.robots[0].own_body = hot.fleet.robots[0].body();
+  hot.fleet.robots[0].own_body->heat_celsius = 30;
   EXPECT_EQ(cause(hot), "robot 'r0' is hot");
   Scenario radio;
   radio.robot();

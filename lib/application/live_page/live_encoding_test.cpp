@@ -22,7 +22,7 @@ WorldObject object(const std::string& name, double x_m) {
 FleetRobot robot(const std::string& name, int beams, const std::string& sensor = "LASER") {
   FleetRobot made;
   made.info.name = name;
-  made.body.shape = Cylinder{0.2};
+  made.own_body.emplace().shape = Cylinder{0.2};
   SensorInfo laser;
   laser.kind = SensorKind::laser;
   laser.label = sensor;

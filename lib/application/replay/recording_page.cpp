@@ -32,10 +32,11 @@ FleetRobot unknownRobot(const std::string& name, std::size_t index) {
   FleetRobot robot;
   robot.info.name = name;
   robot.info.radius_m = RecordingFigure::kUnknownRadius_m;
-  robot.body.shape = Cylinder{RecordingFigure::kUnknownRadius_m};
-  robot.body.height_m = kUnknownHeight_m;
-  robot.body.center_z_m = kUnknownHeight_m / 2;
-  robot.body.color = paletteColor(index);
+  robot.own_body = Body{.shape = Cylinder{RecordingFigure::kUnknownRadius_m},
+                        .world_from_body = {},
+                        .center_z_m = kUnknownHeight_m / 2,
+                        .height_m = kUnknownHeight_m};
+  robot.color = paletteColor(index);
   return robot;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -50,8 +51,8 @@ std::unique_ptr<ImageSource> imagesFor(const World& world, const Fleet& fleet, c
 }
 
 /// When a robot breaks down [simulated s].
+/// @pre robots do
 double drawBreakdownTime(std::size_t robot, const RunOptions& options) {
-  if (options.breakdown_mean_s <= 0) return std::numeric_limits<double>::infinity();
   Rng rng(options.environment.seed, RandomPurpose::breakdown, static_cast<std::uint32_t>(robot));
   return -options.breakdown_mean_s * portable::log(1 - rng.uniform());
 }
@@ -159,6 +160,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log, options.observers_supervise) {
+  local_robots_.reserve(environment_.robotCount());
   for (std::size_t i = 0; i < environment_.robotCount(); ++i) {
     if (elsewhere.empty() || !elsewhere[i]) {
       addRobot(i, controllerOf(environment_.fleet().robots[i].controller, options.controller));
@@ -179,6 +181,7 @@ LocalRun::LocalRun(ForkOf original)
       environment_(original.run.environment_.model(), original.run.environment_.state(), options_.environment.threads,
                    images_.get()),
       workers_(options_.environment.threads),
+      breakdown_s_(original.run.breakdown_s_),
       additions_(original.run.additions_),
       known_world_(original.run.known_world_),
       observers_(RunObservers::Fork{original.run.observers_}) {
@@ -191,10 +194,9 @@ LocalRun::LocalRun(ForkOf original)
       throw ConfigError("robot '" + name + "': another process drives it, so that its run cannot be forked; let this " +
                         "process run its controller");
     }
-    const std::string& controller_name = (*local)->controller_name;
-    auto controller = cloneController(*(*local)->controller, controller_name, name);
-    local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, controller_name, std::move(controller)));
-    local_robots_.back()->breakdown_s = (*local)->breakdown_s;
+    const ControllerKind& kind = kindOf((*local)->kind.name);
+    auto controller = cloneController(*(*local)->controller, kind.name, name);
+    local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, kind, std::move(controller)));
     ++local;
   }
   allowAdditions();
@@ -207,9 +209,17 @@ void LocalRun::addRobot(std::size_t i, const std::string& name) {
     if (!known_world_) known_world_ = makeKnownWorld(environment_.world(), environment_.fleet());
     setup.known_world = known_world_;
   }
-  local_robots_.push_back(
-      std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robot.info.name)));
-  local_robots_.back()->breakdown_s = drawBreakdownTime(i, options_);
+  auto controller = makeController(name, setup, robot.info.name);
+  local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, kindOf(name), std::move(controller)));
+  if (options_.breakdown_mean_s <= 0) return;
+  breakdown_s_.resize(environment_.robotCount(), std::numeric_limits<double>::infinity());
+  breakdown_s_[i] = drawBreakdownTime(i, options_);
+}
+
+const LocalRun::ControllerKind& LocalRun::kindOf(const std::string& controller) {
+  const auto known = controller_kinds_.find(controller);
+  if (known != controller_kinds_.end()) return known->second;
+  return controller_kinds_.emplace(controller, ControllerKind{controller, needsPictures(controller)}).first->second;
 }
 
 void LocalRun::allowAdditions() {
@@ -272,7 +282,7 @@ void LocalRun::followAdditions() {
   const std::size_t count = environment_.robotCount(), at_start = count - after.size();
   const auto same = static_cast<std::size_t>(
       std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first - before.begin());
-  std::erase_if(local_robots_, [&](const auto& local) { return local->index >= at_start + same; });
+  std::erase_if(local_robots_, [&](const auto& local) { return local->index() >= at_start + same; });
   for (std::size_t i = at_start + same; i < count; ++i) {
     const FleetRobot& robot = environment_.fleet().robots[i];
     if (options_.is_added_elsewhere && options_.is_added_elsewhere(robot)) continue;
@@ -345,7 +355,7 @@ void LocalRun::takePictures(const std::vector<std::uint8_t>& requested) {
 std::vector<std::uint8_t> LocalRun::withPictureReaders(std::vector<std::uint8_t> robots) const {
   robots.resize(environment_.robotCount());
   for (const auto& local : local_robots_) {
-    if (local->index < robots.size() && local->reads_pictures) robots[local->index] = 1;
+    if (local->index() < robots.size() && local->kind.reads_pictures) robots[local->index()] = 1;
   }
   return robots;
 }
@@ -361,14 +371,14 @@ void LocalRun::decide() {
   constexpr std::size_t kChunk = 16;
   workers_.forEach(local_robots_.size(), kChunk, [&](std::size_t i) {
     LocalRobot& local = *local_robots_[i];
-    if (environment_.time().seconds() >= local.breakdown_s) {
+    if (!breakdown_s_.empty() && environment_.time().seconds() >= breakdown_s_[local.index()]) {
       if (local.robot.activity() == Activity::active) local.robot.halt();
       return;
     }
     try {
       local.controller->step(local.robot);
     } catch (...) {
-      throwControllerError(local.controller_name, local.robot.name());
+      throwControllerError(local.kind.name, local.robot.name());
     }
   });
 }

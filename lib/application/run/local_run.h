@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -169,22 +169,22 @@ class LocalRun {
   void setDrawnElsewhere(bool has_drawn) { has_drawn_elsewhere_ = has_drawn; }
 
  private:
+  /// What robots with equal controllers have in common.
+  struct ControllerKind {
+    std::string name;     ///< as TypeChoice::text()
+    bool reads_pictures;  ///< whether it requires a camera or a blob finder
+  };
+  /// Small, because a run may have very many robots.
   struct LocalRobot {
-    std::size_t index;
     LocalHardware hardware;
     Robot robot;
-    std::string controller_name;  ///< as TypeChoice::text()
+    const ControllerKind& kind;
     std::unique_ptr<Controller> controller;
-    bool reads_pictures;  ///< whether the controller requires a camera or a blob finder
-    double breakdown_s = std::numeric_limits<double>::infinity();  ///< simulated time
-    LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c)
-        : index(i),
-          hardware(environment, i),
-          robot(hardware),
-          controller_name(std::move(name)),
-          controller(std::move(c)),
-          reads_pictures(needsPictures(controller_name)) {}
+    LocalRobot(Environment& environment, std::size_t i, const ControllerKind& the_kind, std::unique_ptr<Controller> c)
+        : hardware(environment, i), robot(hardware), kind(the_kind), controller(std::move(c)) {}
+    std::size_t index() const { return hardware.robot(); }
   };
+  const ControllerKind& kindOf(const std::string& controller);
   /// By robot: flags, and whether its controller in this process requires pictures.
   std::vector<std::uint8_t> withPictureReaders(std::vector<std::uint8_t> robots) const;
   /// Makes the controller of a robot.
@@ -212,9 +212,11 @@ class LocalRun {
   bool had_camera_;  ///< a robot, at the start, that needsImageSource()
   Environment environment_;
   ParallelExecutor workers_;
-  std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware
-  RobotAdditions additions_;                               ///< those that have been followed
-  std::shared_ptr<const KnownWorld> known_world_;          ///< null until a controller needs it
+  std::map<std::string, ControllerKind> controller_kinds_;  ///< by name; LocalRobots refer to them
+  std::vector<std::unique_ptr<LocalRobot>> local_robots_;   ///< on the heap: each Robot refers to its LocalHardware
+  std::vector<double> breakdown_s_;                         ///< simulated times, by robot; empty if none breaks down
+  RobotAdditions additions_;                                ///< those that have been followed
+  std::shared_ptr<const KnownWorld> known_world_;           ///< null until a controller needs it
   std::optional<bool> has_drawn_elsewhere_;
   RunObservers observers_;
 };

@@ -112,7 +112,7 @@ ordered_json pageObjects(const std::vector<WorldObject>& objects) {
 }
 
 ordered_json pageRobot(const FleetRobot& robot, ordered_json& types) {
-  ordered_json type = shapeOf(robot.body);
+  ordered_json type = shapeOf(robot.body());
   type["model"] = robot.info.model;
   type["deck"] = robot.model && robot.model->look == BodyLook::deck;
   type["sensors"] = ordered_json::array();
@@ -122,7 +122,7 @@ ordered_json pageRobot(const FleetRobot& robot, ordered_json& types) {
   std::size_t index = 0;
   while (index < types.size() && types[index] != type) ++index;
   if (index == types.size()) types.push_back(std::move(type));
-  ordered_json json{{"name", robot.info.name}, {"type", index}, {"color", hexOf(robot.body.color)}};
+  ordered_json json{{"name", robot.info.name}, {"type", index}, {"color", hexOf(robot.color)}};
   if (!robot.controller.empty()) json["controller"] = robot.controller;
   return json;
 }

@@ -22,7 +22,7 @@ class ChangeableRun final : public ViewSource {
     robot.info.name = "Ann";
     robot.info.radius_m = 0.25;
     robot.info.sensors = std::make_shared<const std::vector<SensorInfo>>();
-    robot.body.height_m = 0.2;
+    robot.own_body.emplace().height_m = 0.2;
     world_.fleet.robots.push_back(robot);
     shown.robots.emplace_back().world_from_robot = {7, 7, 0};
   }

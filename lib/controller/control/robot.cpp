@@ -1,5 +1,6 @@
 #include "control/robot.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace robosim {
@@ -15,13 +16,13 @@ const Blobs kNoBlobs;
 
 Robot::Robot(Hardware& hardware) : hardware_(hardware) {
   const auto& sensors = *hardware.info().sensors;
-  slot_of_kind_.fill(-1);
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    const auto kind = static_cast<std::size_t>(sensors[i].kind);
-    if (slot_of_kind_[kind] < 0) slot_of_kind_[kind] = static_cast<int>(i);
-    if (GripperState::isOf(sensors[i])) gripper_slot_ = i;
+  slot_of_kind_.fill(kNoSlot);
+  for (std::size_t i = 0; i < std::min<std::size_t>(sensors.size(), kNoSlot); ++i) {
+    Slot& of_kind = slot_of_kind_[static_cast<std::size_t>(sensors[i].kind)];
+    if (of_kind == kNoSlot) of_kind = static_cast<Slot>(i);
+    if (GripperState::isOf(sensors[i])) gripper_slot_ = static_cast<Slot>(i);
   }
-  head_slot_ = cameraHeadIn(sensors);
+  if (const auto head = cameraHeadIn(sensors); head && *head < kNoSlot) head_slot_ = static_cast<Slot>(*head);
 }
 
 const Measurement* Robot::measurement(SensorKind kind) const {
@@ -69,13 +70,13 @@ const Blobs& Robot::blobs() const {
 }
 
 GripperState Robot::gripper() const {
-  if (!gripper_slot_) return {};
-  return GripperState::from(std::get<Values>(readings().measurements[*gripper_slot_]));
+  if (!hasGripper()) return {};
+  return GripperState::from(std::get<Values>(readings().measurements[gripper_slot_]));
 }
 
 CameraAim Robot::cameraAim() const {
-  if (!head_slot_) return {};
-  return CameraAim::from(std::get<Values>(readings().measurements[*head_slot_]));
+  if (!hasHead()) return {};
+  return CameraAim::from(std::get<Values>(readings().measurements[head_slot_]));
 }
 
 void Robot::drive(double speed_mps, double turn_radps, double lateral_mps) {
@@ -127,7 +128,7 @@ void Robot::stopCamera() {
 
 template <typename Change>
 void Robot::changeHead(const Change& change) {
-  if (head_slot_) changeCommand([&](Command& changed) { change(changed.camera_head); });
+  if (hasHead()) changeCommand([&](Command& changed) { change(changed.camera_head); });
 }
 
 template <typename Change>

@@ -53,8 +53,8 @@ class Robot {
   /// Index into Readings::measurements of the first sensor of a kind; nullopt for a robot without it. Here, because
   /// controllers read sensors many times in a step.
   std::optional<std::size_t> slotOf(SensorKind kind) const {
-    const int found = slot_of_kind_[static_cast<std::size_t>(kind)];
-    return found < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(found));
+    const Slot found = slot_of_kind_[static_cast<std::size_t>(kind)];
+    return found == kNoSlot ? std::nullopt : std::optional<std::size_t>(found);
   }
   /// Description of the first sensor of a kind; null for a robot without it.
   const SensorInfo* sensor(SensorKind kind) const {
@@ -88,7 +88,7 @@ class Robot {
   bool held() const { return gripper().holds; }  ///< whether it holds an object
   /// Of this step; of a robot without a gripper, that of an open one with nothing between its paddles.
   GripperState gripper() const;
-  bool hasGripper() const { return gripper_slot_.has_value(); }
+  bool hasGripper() const { return gripper_slot_ != kNoSlot; }
   ///@}
   /// Sets the colour of the robot's LEDs from the next step on, which omnidirectional cameras of other robots see.
   /// Black, {0, 0, 0}, is off, as at the start. Without effect on real robots.
@@ -108,7 +108,7 @@ class Robot {
   void stopCamera();            ///< aims it where it is now
   CameraAim cameraAim() const;  ///< in this step; straight ahead without zoom for a robot that has none
   /// Limits of the camera's head; null for a robot that has none.
-  const CameraHeadLimits* cameraHead() const { return head_slot_ ? &(*info().sensors)[*head_slot_].head : nullptr; }
+  const CameraHeadLimits* cameraHead() const { return hasHead() ? &(*info().sensors)[head_slot_].head : nullptr; }
   ///@}
   void stop() { drive(0, 0); }
   /// Stops as hard as the robot can (MotionLimits::emergency_decel_mps2), until the next drive().
@@ -144,10 +144,15 @@ class Robot {
   template <typename Change>
   void changeHead(const Change& change);
 
+  // Small, because a run may have very many robots.
+  using Slot = std::uint16_t;
+  static constexpr Slot kNoSlot = 0xffff;
+  bool hasHead() const { return head_slot_ != kNoSlot; }
+
   Hardware& hardware_;
-  std::array<int, kSensorKindNames.size()> slot_of_kind_;  ///< by kind; -1 for none
-  std::optional<std::size_t> gripper_slot_;
-  std::optional<std::size_t> head_slot_;
+  std::array<Slot, kSensorKindNames.size()> slot_of_kind_;  ///< by kind
+  Slot gripper_slot_ = kNoSlot;
+  Slot head_slot_ = kNoSlot;
 };
 
 }  // namespace robosim

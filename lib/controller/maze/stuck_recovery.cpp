@@ -31,7 +31,8 @@ bool StuckRecovery::takesOver(Robot& robot) {
   const bool was_paused = now > called_step_ + kPauseSteps;
   called_step_ = now;
   if (was_paused || hasLeft(stay_, options_.headway_radii, robot)) {
-    const Stay here{robot.odometry().odom_from_robot, now};
+    const auto& pose = robot.odometry().odom_from_robot;
+    const Stay here{{pose.x, pose.y}, now};
     if (was_paused || hasLeft(pocket_, options_.pocket_radii, robot)) pocket_ = here;
     stay_ = here;
     is_in_pocket_ = now >= pocket_.since + robot.stepsIn(options_.pocket_timeout_s);
@@ -67,7 +68,7 @@ void StuckRecovery::turnOrDrive(Robot& robot) {
   const std::uint64_t now = robot.stepNumber();
   const bool is_blocked = robot.stalled() || clearanceInLane(robot, 1) < kGap_m;
   if (now >= turn_until_ && (is_blocked || now >= drive_until_)) {
-    Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, kRandomItem, now);
+    Rng rng(seed_, RandomPurpose::controller, robot_, kRandomItem, now);
     turn_ = rng.below(2) == 0 ? kTurn : -kTurn;
     const double angle_rad = rng.uniform(kTurnMin_rad, kTurnMax_rad);
     turn_until_ = now + robot.stepsIn(angle_rad / (kTurn * limits.turn_max_radps));
@@ -83,7 +84,7 @@ void StuckRecovery::followBoundary(Robot& robot) {
   const std::uint64_t rounds = (now - pocket_.since) / robot.stepsIn(kRound_s);
   const double side = rounds % 2 == 0 ? 1 : -1;
   if (now >= turn_until_ && (robot.stalled() || clearanceInLane(robot, 1) < kGap_m)) {
-    Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, kRandomItem, now);
+    Rng rng(seed_, RandomPurpose::controller, robot_, kRandomItem, now);
     const double angle_rad = rng.uniform(kAwayMin_rad, kAwayMax_rad);
     turn_until_ = now + robot.stepsIn(angle_rad / (kTurn * limits.turn_max_radps));
   }

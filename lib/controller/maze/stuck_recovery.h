@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include <mrpt/math/TPoint2D.h>
+
 #include "control/controller.h"
 #include "control/controller_type.h"
 
@@ -24,7 +26,7 @@ struct StuckRecoveryOptions {
 class StuckRecovery {
  public:
   explicit StuckRecovery(const ControllerSetup& setup, const StuckRecoveryOptions& options = {})
-      : setup_(setup), options_(options) {}
+      : seed_(setup.seed), robot_(setup.robot), options_(options) {}
 
   /// Commands the robot and returns true while the recovery is active. Call it in every step, before the controller's
   /// own decision.
@@ -35,20 +37,22 @@ class StuckRecovery {
  private:
   /// A place, and the step in which the robot last was farther from it than a disc's radius.
   struct Stay {
-    mrpt::math::TPose2D center;  ///< odometry frame
-    std::uint64_t since = 0;     ///< step
+    mrpt::math::TPoint2D center;  ///< odometry frame
+    std::uint64_t since = 0;      ///< step
   };
   bool hasLeft(const Stay& stay, double radii, const Robot& robot) const;
   void turnOrDrive(Robot& robot);
   void followBoundary(Robot& robot);
 
-  ControllerSetup setup_;
-  StuckRecoveryOptions options_;
-  Stay stay_, pocket_;
-  std::uint64_t called_step_ = 0;  ///< of the last call
+  // Only what it needs of the ControllerSetup, because a run may have very many robots.
+  std::uint64_t seed_;
+  std::uint32_t robot_;
   bool is_in_pocket_ = false;
   bool is_active_ = false;
   bool has_drawn_ = false;
+  StuckRecoveryOptions options_;
+  Stay stay_, pocket_;
+  std::uint64_t called_step_ = 0;  ///< of the last call
   std::uint64_t turn_until_ = 0, drive_until_ = 0;  ///< steps
   double turn_ = 0;                                 ///< fraction of the robot's maximum turn rate, signed
 };

@@ -52,7 +52,7 @@ void Wander::step(Robot& robot) {
   const bool near = clearance.ahead() < kNear * radius || readings.stalled;
   // An obstacle met during a slight turn requires a new decision at once: a stall is reported for one step only.
   if (now >= turn_until_ || (near && std::abs(turn_) < kAvoidTurn)) {
-    Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, 0, now);
+    Rng rng(seed_, RandomPurpose::controller, robot_, 0, now);
     if (near) {
       turn_ = std::copysign(rng.uniform(kAvoidTurn, 0.9), clearance.left - clearance.right);
       turn_until_ = now + 3 + rng.below(12);  // prevents oscillation in corners

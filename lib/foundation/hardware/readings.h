@@ -12,13 +12,13 @@ namespace robosim {
 struct Readings {
   SimTime time;
   std::vector<Measurement> measurements;  ///< one per sensor of RobotInfo::sensors, in that order
-  bool stalled = false;                   ///< the last motion was clipped or refused
   float laser_pan_rad = 0;                ///< pan angle of the panning sensors
+  bool stalled = false;                   ///< the last motion was clipped or refused
+  bool is_too_far = false;                ///< it requested CheckWin and is not near enough to the gold
   std::vector<RobotMessage>
       inbox;                ///< sent in the last step, ordered by sender (as the world lists them), then as sent
   std::string winner;       ///< the robot that has won, upon which all halt; empty while there is none, and always
                             ///< without a referee (Hardware::referee())
-  bool is_too_far = false;  ///< this robot requested CheckWin and is not near enough to the gold
   bool operator==(const Readings&) const = default;
 };
 

@@ -20,7 +20,7 @@ void Environment::Impl::useModel(std::shared_ptr<const Model> other) {
   object_mover = moverOfObjects();
   message_router.setRobots(ofRobots(fleet(), nameOf));
   robot_groups = RobotGroups(fleet(), model->period_s, is_sensed);
-  limits = ofRobots(fleet(), limitsOf);
+  limits = RepeatedValues(ofRobots(fleet(), limitsOf));
   drives = drivesOf(fleet());
   known = KnownRobots(count);
   counted = everyRobot();

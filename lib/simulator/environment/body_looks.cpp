@@ -48,7 +48,7 @@ BodyLooks::BodyLooks(const Model& model, const std::vector<WorldObject>& objects
   }
   for (std::size_t i = 0; i < model.fleet.robots.size(); ++i) {
     // A robot that is hot is seen as it is: only what is sought glows.
-    robots_.push_back({levelsOf(model.fleet.robots[i].body.color)});
+    robots_.push_back({levelsOf(model.fleet.robots[i].color)});
     looks_[first_robot_ + i] = robots_.back();
     identities_[first_robot_ + i] = static_cast<std::uint32_t>(objects.size() + i);
   }

@@ -15,6 +15,7 @@
 #include "environment/move_authorisation.h"
 #include "environment/placed_bodies.h"
 #include "environment/referee.h"
+#include "environment/repeated_values.h"
 #include "environment/robot_groups.h"
 #include "environment/run_digest.h"
 #include "geometry/shapes/chord_batch.h"
@@ -38,9 +39,9 @@ struct Environment::Impl {
     return values;
   }
 
-  static Mover moverOf(const FleetRobot& robot) { return {robot.info.radius_m, robot.body.heights()}; }
+  static Mover moverOf(const FleetRobot& robot) { return {robot.info.radius_m, robot.body().heights()}; }
   static PushingDisc pushingDiscOf(const FleetRobot& robot) {
-    return {robot.info.radius_m, robot.body.heights(), robot.model->push_max_n};
+    return {robot.info.radius_m, robot.body().heights(), robot.model->push_max_n};
   }
   static std::string nameOf(const FleetRobot& robot) { return robot.info.name; }
   static MotionLimits limitsOf(const FleetRobot& robot) { return robot.info.limits; }
@@ -49,7 +50,7 @@ struct Environment::Impl {
     if (!hasOtherDrives(fleet)) return {};
     return ofRobots(fleet, [](const FleetRobot& robot) { return robot.info.drive; });
   }
-  static double antennaOf(const FleetRobot& robot) { return robot.body.heights().z_max_m; }
+  static double antennaOf(const FleetRobot& robot) { return robot.body().heights().z_max_m; }
   /// Memory for the motion of the step before the last; empty if no sensor uses it.
   static std::vector<Motion> formerMotionOf(const Fleet& fleet) {
     const auto uses_it = [](const auto& sensor) { return sensor->usesFormerMotion(); };
@@ -85,8 +86,8 @@ struct Environment::Impl {
   MessageRouter message_router;
   IsSensed is_sensed;  ///< null: all sensors are computed
   RobotGroups robot_groups;
-  std::vector<MotionLimits> limits;  ///< by robot
-  std::vector<Drive> drives;         ///< drivesOf() the fleet
+  RepeatedValues<MotionLimits> limits;  ///< by robot
+  std::vector<Drive> drives;            ///< drivesOf() the fleet
   KnownRobots known;
   RobotRange counted;  ///< known robots whose stalls are counted
   std::vector<Path> paths;

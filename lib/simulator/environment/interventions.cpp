@@ -71,7 +71,7 @@ struct Environment::Impl::ApplyChange {
     const FleetRobot& robot = larger->fleet.robots.back();
     if (is_checked) {
       const Solid disc{Circle{{add.world_from_robot.x, add.world_from_robot.y}, robot.info.radius_m},
-                       robot.body.heights()};
+                       robot.body().heights()};
       if (!of.model->world.bounds.covers(boundsOf(disc.outline))) return notOnSurface(add.name);
       if (auto fault = overlapFault(add.name, disc, kNoBody); !fault.empty()) return fault;
       if (auto fault = of.robot_check ? of.robot_check(robot) : std::string(); !fault.empty()) return fault;

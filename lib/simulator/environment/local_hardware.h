@@ -16,6 +16,9 @@ class LocalHardware : public Hardware, public RefereeLink {
         robot_(robot),
         info_(environment.fleet().robots[robot].info) {}
 
+  /// Its index in the world.
+  std::size_t robot() const { return robot_; }
+
   const RobotInfo& info() const override { return info_; }
   const std::vector<std::string>& robots() const override { return environment_.robotNames(); }
   const Readings& readings() const override { return state_.readings[robot_]; }

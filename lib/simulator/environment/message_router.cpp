@@ -55,7 +55,7 @@ MessageRouter::MessageRouter(std::vector<std::string> names, const Communication
 
 void MessageRouter::setRobots(std::vector<std::string> names) {
   names_ = std::move(names);
-  limits_.resize(names_.size());
+  limits_.clear();
   receivers_.clear();
   channel_.setRobots(names_.size());
   by_name_.resize(names_.size());
@@ -102,6 +102,7 @@ void MessageRouter::queue(PendingMessage message, Outbox& outbox) {
 
 template <typename Text>
 void MessageRouter::receive(std::uint32_t from, std::uint32_t to, Text&& text, Delivery& delivery) {
+  if (limits_.empty()) limits_.resize(names_.size());  // most runs are without messages
   if (!limits_[to].admit(names_[from], names_[to], text)) {
     ++delivery.counts.dropped;
     return;

@@ -146,7 +146,8 @@ class MessageRouter {
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
   RadioChannel channel_{communication_};
-  std::vector<InboxLimit> limits_;  ///< by receiver; unused ones between two calls of deliver()
+  /// By receiver; unused ones between two calls of deliver(), and empty until the first message arrives.
+  std::vector<InboxLimit> limits_;
   std::vector<std::uint32_t> receivers_;
   std::vector<std::uint32_t> near_;  ///< memory of transmitToAll()
 };

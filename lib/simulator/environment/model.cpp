@@ -120,7 +120,7 @@ void add(Digest& digest, const World& world) {
 void add(Digest& digest, const FleetRobot& robot) {
   add(digest, robot.info.name);
   add(digest, robot.world_from_start);
-  add(digest, robot.body);
+  add(digest, robot.body());
   const MotionLimits& limits = robot.info.limits;
   for (const double value : {robot.info.radius_m, limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
                              limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2}) {

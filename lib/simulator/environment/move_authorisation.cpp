@@ -23,12 +23,12 @@ bool isStill(const Path& path) { return path.clippedLength() == 0 && (!path.turn
 
 }  // namespace
 
-MoveAuthorisation::MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& surface)
-    : movers_(std::move(movers)),
+MoveAuthorisation::MoveAuthorisation(const std::vector<Mover>& movers, const Bounds2D& surface)
+    : movers_(movers),
       surface_(surface),
       may_have_neighbours_(movers_.size(), 0),
       stays_(movers_.size(), 0) {
-  for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
+  for (const auto& mover : movers_.values()) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 
 void MoveAuthorisation::begin(const ParallelExecutor& workers, const KnownRobots& known, std::span<const Path> paths,

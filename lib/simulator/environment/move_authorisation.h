@@ -6,6 +6,7 @@
 #include "base/parallel_executor.h"
 #include "dynamics/held_object.h"
 #include "environment/known_robots.h"
+#include "environment/repeated_values.h"
 #include "environment/robot_range.h"
 #include "geometry/scene.h"
 
@@ -15,6 +16,7 @@ namespace robosim {
 struct Mover {
   double radius_m = 0;
   HeightSpan heights;
+  bool operator==(const Mover&) const = default;
 };
 
 /// Authorises moves: decides how far each robot may go in a step (the rule is in environment.h). A robot that holds an
@@ -24,7 +26,7 @@ struct Mover {
 /// known, the scene has only those; clip() and judge() are then called for robots near which all others are known.
 class MoveAuthorisation {
  public:
-  MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& surface);
+  MoveAuthorisation(const std::vector<Mover>& movers, const Bounds2D& surface);
 
   /// Starts a step in which no robot is known to stay.
   /// @param held what robots hold in the step, in ascending order of robots
@@ -56,7 +58,7 @@ class MoveAuthorisation {
   /// Of all discs of a robot from its centre.
   double extentOf(std::size_t robot) const;
 
-  std::vector<Mover> movers_;
+  RepeatedValues<Mover> movers_;
   Bounds2D surface_;
   std::vector<HeldObject> held_;
   double radius_max_m_ = 0;

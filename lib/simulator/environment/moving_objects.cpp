@@ -38,7 +38,9 @@ ObjectMover Environment::Impl::moverOfObjects() const {
   for (const auto& object : objects()) {
     if (object.conveyor) belts.push_back(Belt::from(object));
   }
-  return {bodies.movable(), std::move(belts), ofRobots(fleet(), pushingDiscOf), model->world.bounds};
+  std::vector<PushingDisc> discs;  // unused, and not stored, where nothing moves
+  if (!bodies.movable().empty()) discs = ofRobots(fleet(), pushingDiscOf);
+  return {bodies.movable(), std::move(belts), std::move(discs), model->world.bounds};
 }
 
 void Environment::Impl::moveObjects() {

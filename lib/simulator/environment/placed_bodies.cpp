@@ -13,16 +13,20 @@ PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& o
       frames_(model.fleet.robots.size()),
       floor_pictures_(floorPicturesOf(model.world.maps)),
       georeference_(georeferenceOf(model.world)) {
-  robot_bodies_.reserve(model.fleet.robots.size());
+  std::vector<CompactBody> robot_bodies;
+  robot_bodies.reserve(model.fleet.robots.size());
   for (const auto& robot : model.fleet.robots) {
-    CompactBody& compact = robot_bodies_.emplace_back(CompactBody{{}, robot.body.heights()});
-    if (const auto* cylinder = std::get_if<Cylinder>(&robot.body.shape)) {
-      compact.disc_radius_m = cylinder->radius_m;
-    } else {
-      beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
-    }
+    robot_bodies.push_back(compact(robot));
+    if (!robot_bodies.back().disc_radius_m) beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
   }
+  robot_bodies_ = RepeatedValues(robot_bodies);
   setObjects(objects);
+}
+
+PlacedBodies::CompactBody PlacedBodies::compact(const FleetRobot& robot) {
+  const Body body = robot.body();
+  const auto* const cylinder = std::get_if<Cylinder>(&body.shape);
+  return {cylinder ? std::optional(cylinder->radius_m) : std::nullopt, body.heights()};
 }
 
 void PlacedBodies::setObjects(const std::vector<WorldObject>& objects) {
@@ -72,9 +76,10 @@ void PlacedBodies::addProperties(const std::vector<WorldObject>& objects) {
     addFeatures(objects[i].body, id);
   }
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    addHeatSource(robots[i].body, {}, scene_.movingBody(i));
-    addReflectivity(robots[i].body, scene_.movingBody(i));
-    addFeatures(robots[i].body, scene_.movingBody(i));
+    const Body body = robots[i].body();
+    addHeatSource(body, {}, scene_.movingBody(i));
+    addReflectivity(body, scene_.movingBody(i));
+    addFeatures(body, scene_.movingBody(i));
   }
 }
 
@@ -146,7 +151,7 @@ void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motio
     }
     const auto& pose = state.world_from_robot[robot];
     source.center = {pose.x, pose.y};
-    source.heat_celsius = state.isAbsent(robot) ? 0 : model_->fleet.robots[robot].body.heat_celsius;
+    source.heat_celsius = state.isAbsent(robot) ? 0 : model_->fleet.robots[robot].body().heat_celsius;
   }
 }
 
@@ -155,7 +160,7 @@ Solid PlacedBodies::solidOf(std::size_t robot, const mrpt::math::TPose2D& world_
   if (compact.disc_radius_m) {
     return {Circle{{world_from_robot.x, world_from_robot.y}, *compact.disc_radius_m}, compact.heights};
   }
-  Body body = model_->fleet.robots[robot].body;
+  Body body = model_->fleet.robots[robot].body();
   body.world_from_body = world_from_robot;
   return body.solid();
 }

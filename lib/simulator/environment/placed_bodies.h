@@ -9,6 +9,7 @@
 #include "environment/body_looks.h"
 #include "environment/known_robots.h"
 #include "environment/model.h"
+#include "environment/repeated_values.h"
 #include "environment/robot_range.h"
 #include "environment/state.h"
 #include "geometry/scene.h"
@@ -50,11 +51,13 @@ class PlacedBodies {
   Snapshot snapshot(const State& state, std::span<const Path> paths, ImageSource* images) const;
 
  private:
-  /// What placing needs of a robot's body, in an array: to look it up in the fleet would cost a cache miss or more.
+  /// What placing needs of a robot's body: to look it up in the fleet would cost a cache miss or more.
   struct CompactBody {
     std::optional<double> disc_radius_m;  ///< nullopt for a body that is no disc
     HeightSpan heights;
+    bool operator==(const CompactBody&) const = default;
   };
+  static CompactBody compact(const FleetRobot& robot);
 
   void listObjects(const std::vector<WorldObject>& objects);
   void addProperties(const std::vector<WorldObject>& objects);
@@ -67,7 +70,7 @@ class PlacedBodies {
 
   const Model* model_;
   Scene scene_;
-  std::vector<CompactBody> robot_bodies_;
+  RepeatedValues<CompactBody> robot_bodies_;
   std::vector<MovableBody> movable_;
   std::vector<BodyId> body_of_object_;
   double beyond_body_m_ = 0;              ///< maximum by which the disc of a robot extends beyond its body

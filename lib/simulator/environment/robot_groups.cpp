@@ -40,6 +40,7 @@ std::span<const std::uint32_t> RobotGroup::within(RobotRange range) const {
 
 RobotGroups::RobotGroups(const Fleet& fleet, double period_s, const IsSensed& is_sensed) {
   std::map<std::pair<const RobotModel*, std::vector<std::size_t>>, std::uint32_t> group_of;
+  number_of.reserve(fleet.robots.size());
   for (std::uint32_t i = 0; i < fleet.robots.size(); ++i) {
     const RobotModel* model = fleet.robots[i].model.get();
     const auto slots = sensedSlots(*model, i, is_sensed);

@@ -24,10 +24,11 @@ std::unique_ptr<Environment> sceneOf(Rng& rng) {
   for (std::uint32_t i = 0; i < kOthers; ++i) {
     addDisc(world, fleet, "r" + std::to_string(i), {-50 + 3.0 * i, -50, rng.uniform(-3, 3)}, rng.uniform(0.1, 0.4));
     FleetRobot& robot = fleet.robots.back();
-    robot.body.fiducial = 1 + i;
-    if (i % 2 == 0) continue;
+    Body body = robot.body();
+    body.fiducial = 1 + i;
     const double radius_m = robot.info.radius_m;
-    robot.body.shape = Cube{2 * radius_m * 0.8, 2 * radius_m * 0.6};  // of this radius
+    if (i % 2 != 0) body.shape = Cube{2 * radius_m * 0.8, 2 * radius_m * 0.6};  // of this radius
+    robot.own_body = body;
   }
   addWall(world, 1.5, rng.uniform(-2, 2), 0.5, 0.1, rng.uniform(0, 3));
   for (int i = 0; i < 6; ++i) {
@@ -50,7 +51,7 @@ std::unique_ptr<Environment> sceneOf(Rng& rng) {
 /// From the measuring robot's centre to the nearest part of another robot [m].
 double distanceTo(const Environment& environment, std::uint32_t robot) {
   const State& state = environment.state();
-  Body body = environment.fleet().robots[robot].body;
+  Body body = environment.fleet().robots[robot].body();
   body.world_from_body = state.world_from_robot[robot];
   const auto& from = state.world_from_robot[0];
   return distance(body.solid().outline, {from.x, from.y});
@@ -62,7 +63,7 @@ void placeOthers(Environment& environment, double reach_m, Rng& rng) {
   const auto centre = environment.state().world_from_robot[0];
   for (std::uint32_t robot = 1; robot <= kOthers; ++robot) {
     const double radius_m = environment.fleet().robots[robot].info.radius_m;
-    const bool is_disc = std::holds_alternative<Cylinder>(environment.fleet().robots[robot].body.shape);
+    const bool is_disc = std::holds_alternative<Cylinder>(environment.fleet().robots[robot].body().shape);
     constexpr double kBeyond_m[] = {0, 1e-6, 1e-3, -1e-3, -0.1};
     const double off_m = is_disc ? reach_m + radius_m + kBeyond_m[rng.below(5)]
                                  : rng.uniform(std::max(0.5, 0.3 * reach_m), 1.1 * reach_m + 2 * radius_m);

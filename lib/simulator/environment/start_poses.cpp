@@ -40,12 +40,12 @@ double unawareDistance(const World& world, const Fleet& fleet, double radius_m) 
 RandomStarts::RandomStarts(const World& world, const Fleet& fleet)
     : world_name_(world.name), robots_(fleet.robots.size()), required_distance_m_(world.start_distance_m) {
   if (fleet.robots.empty()) return;
-  HeightSpan heights = fleet.robots.front().body.heights();
+  HeightSpan heights = fleet.robots.front().body().heights();
   std::vector<TPoint2D> starts;
   for (const auto& robot : fleet.robots) {
     radius_m_ = std::max(radius_m_, robot.info.radius_m);
-    heights.z_min_m = std::min(heights.z_min_m, robot.body.heights().z_min_m);
-    heights.z_max_m = std::max(heights.z_max_m, robot.body.heights().z_max_m);
+    heights.z_min_m = std::min(heights.z_min_m, robot.body().heights().z_min_m);
+    heights.z_max_m = std::max(heights.z_max_m, robot.body().heights().z_max_m);
     starts.emplace_back(robot.world_from_start.x, robot.world_from_start.y);
   }
   const FreeSpace raster(world, radius_m_, heights);
@@ -102,7 +102,6 @@ std::vector<TPose2D> RandomStarts::draw(std::uint64_t seed) const {
 void setStartPoses(Fleet& fleet, std::span<const TPose2D> starts) {
   for (std::size_t i = 0; i < starts.size(); ++i) {
     fleet.robots[i].world_from_start = starts[i];
-    fleet.robots[i].body.world_from_body = starts[i];
   }
 }
 

@@ -161,10 +161,10 @@ void writeNames(DrawingSurface& surface, const AirPicture& air, const AirView& v
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
     if (!snapshot.robots[i].isPresent()) continue;
     const auto& pose = snapshot.robots[i].world_from_robot;
-    const TPoint3D seen = view.seen({pose.x, pose.y, fleet.robots[i].body.heights().z_max_m + 0.12});
+    const TPoint3D seen = view.seen({pose.x, pose.y, fleet.robots[i].body().heights().z_max_m + 0.12});
     if (seen.x < 4 * AirView::kNearest_m) continue;
     const TPoint2D pixel = view.pixel(seen);
-    const TPoint3D ground = view.seen({pose.x, pose.y, fleet.robots[i].body.heights().z_min_m});
+    const TPoint3D ground = view.seen({pose.x, pose.y, fleet.robots[i].body().heights().z_min_m});
     const double height_px = ground.x < AirView::kNearest_m ? 0 : view.pixel(ground).y - pixel.y;
     const double half_px = fleet.robots[i].info.radius_m * view.focalLength() / seen.x;
     if (view.isOnPicture(pixel)) labels.push_back({seen.x, pixel, half_px, height_px, i});
@@ -225,7 +225,7 @@ void drawDots(DrawingSurface& surface, const AirPicture& air, const AirView& vie
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
     if (!snapshot.robots[i].isPresent()) continue;
     const auto& pose = snapshot.robots[i].world_from_robot;
-    const double top_m = fleet.robots[i].body.heights().z_max_m;
+    const double top_m = fleet.robots[i].body().heights().z_max_m;
     const TPoint3D seen = view.seen({pose.x, pose.y, top_m});
     if (seen.x < AirView::kNearest_m) continue;
     const TPoint2D pixel = view.pixel(seen);

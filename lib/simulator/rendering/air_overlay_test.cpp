@@ -14,7 +14,8 @@ struct AirOverlay : testing::Test {
     camera.field_of_view_rad = 1;
     FleetRobot robot;
     robot.info.name = "Zoë";
-    robot.body = {Cylinder{0.25}, {0, 0, 0}, 0.2, 0.4, {1, 0, 0}, 0};
+    robot.own_body = Body{Cylinder{0.25}, {0, 0, 0}, 0.2, 0.4};
+    robot.color = {1, 0, 0};
     SensorInfo laser;
     laser.kind = SensorKind::laser;
     laser.range_max_m = 8;
@@ -113,7 +114,7 @@ TEST_F(AirOverlay, WritesANameBelowOrBesideARobotWithoutRoomAbove) {
   EXPECT_TRUE(writes_name(level_rad));
   // Half of the picture's height is 300 px of a focal length of f px: the robot is 6 px below the upper edge.
   const double upper_rad = std::atan2(150.0 - 6, camera.focalLength());
-  const auto& body = fleet.robots[0].body.heights();
+  const auto& body = fleet.robots[0].body().heights();
   const double top_rad = std::atan2(2 - body.z_max_m - 0.12, 5.0);
   EXPECT_TRUE(writes_name(top_rad + upper_rad));
 }

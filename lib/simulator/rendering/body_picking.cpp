@@ -9,7 +9,7 @@ namespace {
 constexpr double kRobotRadiusMin_px = 6;
 
 Body robotBody(const FleetRobot& robot, const RobotSnapshot& snapshot) {
-  Body body = robot.body;
+  Body body = robot.body();
   body.shape = Cylinder{robot.info.radius_m};
   body.world_from_body = snapshot.world_from_robot;
   return body;

@@ -25,8 +25,7 @@ struct RoomWithTable {
     FleetRobot robot;
     robot.info.name = "Ann";
     robot.info.radius_m = 0.2;
-    robot.body.height_m = 0.2;
-    robot.body.center_z_m = 0.1;
+    robot.own_body = Body{.shape = {}, .world_from_body = {}, .center_z_m = 0.1, .height_m = 0.2};
     world.fleet.robots.push_back(robot);
     snapshot.robots.emplace_back().world_from_robot = {0, 0, 1};
   }

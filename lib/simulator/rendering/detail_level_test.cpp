@@ -40,7 +40,7 @@ struct Swarm {
       robot.info.name = "Robot" + std::to_string(i);
       robot.info.radius_m = 0.2;
       robot.info.sensors = sensors;
-      robot.body.color = paletteColor(fleet.robots.size());
+      robot.color = paletteColor(fleet.robots.size());
       fleet.robots.push_back(robot);
       RobotSnapshot& one = snapshot.robots.emplace_back();
       one.readings.emplace().measurements = {Echoes{{2, {2.2F, 0, 0.2F}}}};
@@ -145,7 +145,7 @@ TEST(DetailLevel, DrawsEveryRobotOfATopViewInItsColour) {
     const TPoint2D pixel = view.toPixel({pose.x, pose.y});
     const auto& seen =
         picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
-    const Color color = swarm.fleet.robots[i].body.color;
+    const Color color = swarm.fleet.robots[i].color;
     EXPECT_NEAR(seen[2], 255 * 0.8 * static_cast<double>(color[0]), 40) << i;
     EXPECT_NEAR(seen[0], 255 * 0.8 * static_cast<double>(color[2]), 40) << i;
   }
@@ -200,9 +200,9 @@ TEST(DetailLevel, DotsOfA3dPictureLieOnThePathsAndLeaveTheFloorVisible) {
   drawAirOverlay(air, swarm.snapshot, swarm.fleet, swarm.paths, {}, {});
   EXPECT_GT(floorShare(picture), 0.75);
   const AirView view(air);
-  const double top_m = swarm.fleet.robots[500].body.heights().z_max_m;
+  const double top_m = swarm.fleet.robots[500].body().heights().z_max_m;
   const TPoint2D pixel = view.pixel(view.seen({20.9, 12.5, top_m}));
-  const Color color = swarm.fleet.robots[500].body.color;
+  const Color color = swarm.fleet.robots[500].color;
   const auto& seen =
       picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
   EXPECT_NEAR(seen[2], 255 * static_cast<double>(color[0]), 60);

@@ -44,7 +44,7 @@ std::string scaleLabel(double length_m) { return mrpt::format("%g m", length_m);
 
 std::vector<Color> robotColors(const Fleet& fleet) {
   std::vector<Color> colors;
-  for (const auto& robot : fleet.robots) colors.push_back(robot.body.color);
+  for (const auto& robot : fleet.robots) colors.push_back(robot.color);
   return colors;
 }
 

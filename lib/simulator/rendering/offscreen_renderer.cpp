@@ -40,7 +40,7 @@ mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from
 
 struct OffscreenRenderer::Impl {
   Impl(const World& the_world, const Fleet& the_fleet) : thread(RenderThread::shared()), objects(the_world.objects) {
-    for (const auto& robot : the_fleet.robots) underside_m.push_back(robot.body.heights().z_min_m);
+    for (const auto& robot : the_fleet.robots) underside_m.push_back(robot.body().heights().z_min_m);
     thread->run([&](RenderThread::Targets&) {
       scene = std::make_unique<mrpt::opengl::COpenGLScene>();
       scene->getViewport()->setViewportClipDistances(kNearPlane_m, kFarPlane_m);

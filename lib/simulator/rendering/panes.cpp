@@ -227,10 +227,10 @@ void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
   camera.height_px = std::max(1U, camera.height_px * static_cast<unsigned>(width) / std::max(1U, camera.width_px));
   camera.width_px = static_cast<unsigned>(width);
   const TPose2D& pose = snapshot.robots[*robot].world_from_robot;
-  const TPose3D world_from_robot(pose.x, pose.y, fleet_.robots[*robot].body.heights().z_min_m, pose.phi, 0, 0);
+  const TPose3D world_from_robot(pose.x, pose.y, fleet_.robots[*robot].body().heights().z_min_m, pose.phi, 0, 0);
   cv::Mat inset = render(camera, world_from_robot + sensor.beams.front().robot_from_beam, snapshot, nullptr);
   const int border = std::max(1, static_cast<int>(std::lround(3 * look_.scale)));
-  const auto [red, green, blue] = fleet_.robots[*robot].body.color;
+  const auto [red, green, blue] = fleet_.robots[*robot].color;
   cv::copyMakeBorder(inset, inset, border, border, border, border, cv::BORDER_CONSTANT,
                      cv::Scalar(blue, green, red) * 255);
   const cv::Rect place(picture.cols - inset.cols - 3 * border, 3 * border, inset.cols, inset.rows);

@@ -46,7 +46,7 @@ struct Scene10x5 {
       FleetRobot robot;
       robot.info.name = name;
       robot.info.radius_m = 0.3;
-      robot.body.color = paletteColor(fleet.robots.size());
+      robot.color = paletteColor(fleet.robots.size());
       fleet.robots.push_back(robot);
     }
   }

@@ -26,8 +26,8 @@ struct Drive {
       robot.info.radius_m = 0.25;
       fleet.robots.push_back(robot);
     }
-    fleet.robots[0].body.color = {1, 0, 0};
-    fleet.robots[1].body.color = {0, 0, 1};
+    fleet.robots[0].color = {1, 0, 0};
+    fleet.robots[1].color = {0, 0, 1};
     run.paths = {{{1, 1}, {5, 1}, {9, 1}}, {}};
     run.world_from_robot = {mrpt::math::TPose2D(9, 1, 0), std::nullopt};
   }

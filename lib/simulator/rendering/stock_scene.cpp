@@ -92,7 +92,7 @@ std::string toStockScene(const World& world, const Fleet& fleet, const ViewLayer
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
     if (!layers.shows(i)) continue;
     const FleetRobot& robot = fleet.robots[i];
-    auto body = thing(robot.info.name, robotMesh(*robot.model, robot.body, detail), robot.body.color);
+    auto body = thing(robot.info.name, robotMesh(*robot.model, robot.body(), detail), robot.color);
     const auto& start = robot.world_from_start;
     body->setPose(TPose3D(start.x, start.y, 0, start.phi, 0, 0));
     if (layers.names && count <= DetailLevel::kManyRobots) body->enableShowName();

@@ -213,12 +213,12 @@ TEST_F(TopViewTest, DrawsRobotsInTheColoursOfTheirBodies) {
   const auto color_of = [&](double x, double y) {
     return at(TopView(world, fleet).draw(snapshot, paths, camera, layers), {x, y});
   };
-  fleet.robots[0].body.color = {0, 1, 0};
-  fleet.robots[1].body.color = {0, 0, 1};
+  fleet.robots[0].color = {0, 1, 0};
+  fleet.robots[1].color = {0, 0, 1};
   const cv::Vec3b green = color_of(4.75, 2.5), blue = color_of(8, 3.75);
   EXPECT_GT(green[1], green[2] + 100);
   EXPECT_GT(blue[0], blue[2] + 100);
-  fleet.robots[1].body.color = {0, 1, 0};
+  fleet.robots[1].color = {0, 1, 0};
   EXPECT_EQ(color_of(4.75, 2.5), color_of(8, 3.75)) << "a team";
 }
 

@@ -146,7 +146,7 @@ void WorldScene::Impl::addRobots(const World& world, const Fleet& fleet) {
   using Appearance = std::tuple<const RobotModel*, bool, double, double, double, double>;
   std::map<Appearance, std::size_t> group_of;
   for (const auto& robot : fleet.robots) {
-    const Body& body = robot.body;
+    const Body body = robot.body();
     const auto* cube = std::get_if<Cube>(&body.shape);
     const double length_m = cube ? cube->length_m : std::get<Cylinder>(body.shape).radius_m;
     const Appearance appearance{robot.model.get(),        cube != nullptr, length_m,

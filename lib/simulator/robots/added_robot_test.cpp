@@ -43,8 +43,8 @@ TEST(AddedRobot, IsTheLastAndSharesTheModelOfItsType) {
 TEST(AddedRobot, HasAColorOfItsOwnAndLeavesThoseOfOthers) {
   const Fleet before = twoScouts();
   const Fleet after = withRobot(withRobot(before, {"C", "scout", {}}), {"D", "pioneer3dx", {}, "", "", {{1, 0.5f, 0}}});
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(after.robots[i].body.color, before.robots[i].body.color);
-  EXPECT_EQ(after.robots[3].body.color, (std::array{1.0f, 0.5f, 0.0f}));
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(after.robots[i].color, before.robots[i].color);
+  EXPECT_EQ(after.robots[3].color, (std::array{1.0f, 0.5f, 0.0f}));
   EXPECT_EQ(after.robots[3].info.color_rgb, 0xff8000u);
 }
 

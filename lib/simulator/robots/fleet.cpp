@@ -45,10 +45,18 @@ class ControllerFaults {
 
 RobotStart startOf(const RobotPlacement& placement, const FleetRobot& robot) {
   const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
-  return {placement.name, placement.line, disc, robot.body.heights(), robot.body.solid().outline};
+  const Body body = robot.body();
+  return {placement.name, placement.line, disc, body.heights(), body.solid().outline};
 }
 
 }  // namespace
+
+Body FleetRobot::body() const {
+  Body body = own_body ? *own_body : model ? model->body : Body();
+  body.color = color;
+  body.world_from_body = world_from_start;
+  return body;
+}
 
 FleetRobot placedRobot(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model) {
   FleetRobot robot;
@@ -62,9 +70,8 @@ FleetRobot placedRobot(const RobotPlacement& placement, std::shared_ptr<const Ro
                 .drive = model->drive};
   robot.world_from_start = placement.world_from_robot;
   robot.world_from_start.phi = mrpt::math::wrapToPi(robot.world_from_start.phi);
-  robot.body = placement.body.value_or(model->body);
-  if (placement.color) robot.body.color = *placement.color;
-  robot.body.world_from_body = robot.world_from_start;
+  robot.own_body = placement.body;
+  robot.color = placement.color.value_or(placement.body ? placement.body->color : model->body.color);
   robot.controller = placement.controller;
   robot.model = std::move(model);
   return robot;

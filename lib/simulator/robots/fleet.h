@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/error_list.h"
+#include "base/rare.h"
 #include "robots/robot_model.h"
 #include "robots/robot_types.h"
 #include "world/world.h"
@@ -19,8 +21,12 @@ struct FleetRobot {
   RobotInfo info;
   std::shared_ptr<const RobotModel> model;
   mrpt::math::TPose2D world_from_start;
-  Body body;               ///< at the start, in the colour of all views; other robots' sensors detect this shape
-  std::string controller;  ///< as TypeChoice::text(); empty: the program's default
+  std::array<float, 3> color = Body().color;  ///< in all views
+  Rare<Body> own_body = {};                   ///< instead of the model's; its pose and colour have no effect
+  std::string controller;                     ///< as TypeChoice::text(); empty: the program's default
+
+  /// At the start, in its colour; other robots' sensors detect this shape.
+  Body body() const;
 };
 
 /// Robot types of which robots can be added to a fleet.

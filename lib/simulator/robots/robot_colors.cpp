@@ -38,10 +38,10 @@ std::array<float, 3> paletteColor(std::size_t robot) {
 void setRobotColors(const World& world, Fleet& fleet) {
   std::map<std::array<float, 3>, std::size_t> count;  // of robots without a colour, by their types' colour
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
-    if (!hasOwnColor(world.robots[i])) ++count[fleet.robots[i].body.color];
+    if (!hasOwnColor(world.robots[i])) ++count[fleet.robots[i].color];
   }
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
-    auto& color = fleet.robots[i].body.color;
+    auto& color = fleet.robots[i].color;
     if (!hasOwnColor(world.robots[i]) && count[color] > 1) color = paletteColor(i);
     fleet.robots[i].info.color_rgb = rgbOf(color);
   }
@@ -49,8 +49,8 @@ void setRobotColors(const World& world, Fleet& fleet) {
 
 void setColorOfLast(Fleet& fleet, const std::optional<std::array<float, 3>>& own) {
   FleetRobot& last = fleet.robots.back();
-  auto& color = last.body.color;
-  const auto has_color = [&](const FleetRobot& other) { return &other != &last && other.body.color == color; };
+  auto& color = last.color;
+  const auto has_color = [&](const FleetRobot& other) { return &other != &last && other.color == color; };
   if (own) {
     color = *own;
   } else if (std::any_of(fleet.robots.begin(), fleet.robots.end(), has_color)) {

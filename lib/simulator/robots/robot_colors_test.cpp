@@ -26,8 +26,8 @@ std::vector<Rgb> colorsOf(const std::vector<std::pair<std::string, std::string>>
   const Fleet again = buildFleet(world, "w.xml", fleet, more);
   std::vector<Rgb> colors;
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
-    colors.push_back(fleet.robots[i].body.color);
-    EXPECT_EQ(again.robots[i].body.color, colors.back()) << "however the fleet is made";
+    colors.push_back(fleet.robots[i].color);
+    EXPECT_EQ(again.robots[i].color, colors.back()) << "however the fleet is made";
   }
   return colors;
 }

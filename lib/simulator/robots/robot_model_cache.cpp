@@ -34,7 +34,7 @@ std::size_t computeHash(const RobotPlacement& robot) {
   return hash;
 }
 
-bool sameForm(const std::optional<Body>& a, const std::optional<Body>& b) {
+bool sameForm(const Rare<Body>& a, const Rare<Body>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->shape == b->shape && a->height_m == b->height_m && a->center_z_m == b->center_z_m;
 }

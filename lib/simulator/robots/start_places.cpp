@@ -50,7 +50,7 @@ Fleet makeValidFleet(const World& world, const std::string& world_file, const Ro
 }  // namespace
 
 FreePlaces::FreePlaces(const World& world, const Fleet& others, FleetRobot kind)
-    : world_(world), kind_(std::move(kind)), free_(world, kind_.info.radius_m, kind_.body.heights()) {
+    : world_(world), kind_(std::move(kind)), free_(world, kind_.info.radius_m, kind_.body().heights()) {
   free_.blockUnknown(world);
   cells_ = free_.largestRegion();
   for (const auto& robot : others.robots) {
@@ -94,7 +94,7 @@ bool FreePlaces::takeAt(const TPoint2D& place, double clearance_m) {
   });
   const Circle disc{place, kind_.info.radius_m + kContactGap_m};
   if (!is_in_region || !world_.bounds.covers(boundsOf(disc))) return false;
-  const Solid solid{disc, kind_.body.heights()};
+  const Solid solid{disc, kind_.body().heights()};
   const auto solids = startSolids(world_);
   return std::none_of(solids.begin(), solids.end(), [&](const Solid& other) { return overlap(solid, other); }) &&
          take(place, clearance_m);

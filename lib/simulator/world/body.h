@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
 
+#include "base/rare.h"
 #include "base/xml_element.h"
 #include "geometry/shapes/solid.h"
 
@@ -134,10 +134,10 @@ struct Conveyor {
 struct WorldObject {
   std::string name;
   Body body;
-  std::optional<Movable> movable = {};    ///< nullopt: robots do not push it
-  std::optional<Door> door = {};          ///< its body is a box
-  std::optional<Walker> walker = {};      ///< its body is a cylinder
-  std::optional<Conveyor> conveyor = {};  ///< its body is a box. An object has at most one of these four
+  Rare<Movable> movable = {};    ///< nullopt: robots do not push it
+  Rare<Door> door = {};          ///< its body is a box
+  Rare<Walker> walker = {};      ///< its body is a cylinder
+  Rare<Conveyor> conveyor = {};  ///< its body is a box. An object has at most one of these four
   SourceLine line;
   bool operator==(const WorldObject&) const = default;
 

@@ -7,6 +7,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include "base/rare.h"
 #include "base/xml_element.h"
 #include "geometry/shapes/solid.h"
 #include "world/body.h"
@@ -38,12 +39,12 @@ struct RobotPlacement {
   std::string name;
   std::string model;  ///< refers to worlds/robots/<model>.xml; empty for a robot described in the file (2005)
   mrpt::math::TPose2D world_from_robot;  ///< start
-  std::optional<Body> body;  ///< from <cylinder> or <cube>; absent: the model's. Its pose is world_from_robot
+  Rare<Body> body;  ///< from <cylinder> or <cube>; absent: the model's. Its pose is world_from_robot
   std::optional<std::array<float, 3>> color;  ///< instead of the model's, when `body` is absent
   std::vector<XmlElement>
       sensors;  ///< 2005's <sensor> elements and those inside <sensors>, in file units, not yet interpreted
-  std::optional<XmlElement> drive;  ///< instead of the model's; not yet interpreted
-  std::string controller;           ///< as TypeChoice::text(), not yet checked; empty: the program's default
+  Rare<XmlElement> drive;  ///< instead of the model's; not yet interpreted
+  std::string controller;  ///< as TypeChoice::text(), not yet checked; empty: the program's default
   SourceLine controller_line;
   std::string neighbour;  ///< empty: none
   SourceLine line;

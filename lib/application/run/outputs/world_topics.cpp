@@ -62,7 +62,7 @@ std::vector<RobotVelocity> trueVelocities(const State& state) {
 TopicMessage WorldTopics::map(std::uint64_t time_ns) const {
   const World& world = model_->world;
   std::vector<HeightSpan> robots;
-  for (const auto& robot : model_->fleet.robots) robots.push_back(robot.body.heights());
+  for (const auto& robot : model_->fleet.robots) robots.push_back(robot.body().heights());
   MapExtent extent = extentOfMap(world).value_or(MapExtent());
   extent.heights = robotHeights(robots);
   const double area_m2 = (world.bounds.x_max - world.bounds.x_min) * (world.bounds.y_max - world.bounds.y_min);

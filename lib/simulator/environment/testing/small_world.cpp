@@ -55,8 +55,6 @@ void addDisc(World& world, Fleet& fleet, const std::string& name, const mrpt::ma
   robot.info = {name, model->name, "", radius_m, model->body.height_m, limits, model->sensor_infos};
   robot.model = model;
   robot.world_from_start = start;
-  robot.body = model->body;
-  robot.body.world_from_body = start;
   fleet.robots.push_back(robot);
 
   RobotPlacement placement;

@@ -32,7 +32,7 @@ struct TopViewTest : testing::Test {
       sonar.beam_width_rad = 0.4;
       sonar.beams = {{{0.5, 0, 0.2, 0, 0, 0}}};
       robot.info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{sonar});
-      robot.body.color = paletteColor(fleet.robots.size());
+      robot.color = paletteColor(fleet.robots.size());
       fleet.robots.push_back(robot);
     }
     snapshot.robots.resize(2);
