@@ -73,6 +73,11 @@ bool haveSameBits(const Command& a, const Command& b) {
   return a == b && numbers(a) == numbers(b);
 }
 
+const Outbox& outboxOf(const StepOrders& orders, std::size_t robot) {
+  static const Outbox kEmpty;
+  return orders.outboxes[robot] ? *orders.outboxes[robot] : kEmpty;
+}
+
 }  // namespace
 
 void OrdersWriter::begin(const StepOrders& orders, RobotRange robots) {
@@ -82,7 +87,7 @@ void OrdersWriter::begin(const StepOrders& orders, RobotRange robots) {
   win_requests_.assign(orders.win_requests.begin() + begin, orders.win_requests.begin() + end);
   sent_.clear();
   for (std::size_t i = robots.begin; i < robots.end; ++i)
-    sent_.push_back({orders.outboxes[i].messages.size(), orders.outboxes[i].surplus});
+    sent_.push_back({outboxOf(orders, i).messages.size(), outboxOf(orders, i).surplus});
 }
 
 bool OrdersWriter::hasChanged(const StepOrders& orders, std::size_t robot) const {
@@ -113,7 +118,7 @@ void OrdersWriter::end(const StepOrders& orders, std::span<const std::uint32_t> 
     });
     has_changes |= addItems(writer, [&](CountedWriter& items) {
       for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
-        const Outbox& outbox = orders.outboxes[i];
+        const Outbox& outbox = outboxOf(orders, i);
         const Sent& before = sent_[i - robots_.begin];
         if (outbox.messages.size() == before.messages && outbox.surplus == before.surplus) continue;
         items.beginItem(i);
@@ -154,7 +159,8 @@ void readOrders(std::string_view bytes, RobotRange from, const StepOrders& order
       if (orders.activity[i] == Activity::active && activity != Activity::absent) orders.activity[i] = activity;
     });
     forItems(in, from, [&](std::size_t i) {
-      Outbox& outbox = orders.outboxes[i];
+      if (!orders.outboxes[i]) orders.outboxes[i].emplace();
+      Outbox& outbox = *orders.outboxes[i];
       orders.may_send[i] = 1;
       outbox.surplus = in.takeNumber<std::uint64_t>();
       for (auto left = in.takeNumber<std::uint32_t>(); left > 0; --left) {

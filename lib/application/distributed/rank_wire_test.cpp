@@ -12,7 +12,7 @@ namespace {
 /// What some robots' controllers have requested, on one rank.
 struct Orders {
   std::vector<Command> commands;
-  std::vector<Outbox> outboxes;
+  std::vector<Rare<Outbox>> outboxes;
   std::vector<std::uint8_t> may_send, win_requests;
   std::vector<Activity> activity;
 
@@ -76,9 +76,9 @@ TEST(OrdersWriter, WritesMessagesRequestsAndActivityOfAllRobots) {
   Orders from(5), to(5);
   to.activity[3] = Activity::found;
   const std::string bytes = bytesAfter(from, [&] {
-    from.outboxes[2].messages.push_back({4, "hello"});
-    from.outboxes[2].messages.push_back({kEveryOtherRobot, "all"});
-    from.outboxes[2].surplus = 7;
+    from.outboxes[2].emplace().messages.push_back({4, "hello"});
+    from.outboxes[2]->messages.push_back({kEveryOtherRobot, "all"});
+    from.outboxes[2]->surplus = 7;
     from.win_requests[1] = 1;
     from.commands[2].activity = from.commands[3].activity = Activity::halted;
   });

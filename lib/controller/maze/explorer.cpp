@@ -31,8 +31,8 @@ constexpr double kExplore_s = 60;         // for so long
 constexpr double kNothingLeft_s = 5;      // then it starts a new map
 constexpr double kStuck_s = 1.5;
 constexpr int kStallMax = 1;        // steps in a row, if sensors are noisy
-constexpr double kRecovery_s = 60;  // without headway, however often it has drawn back
-constexpr double kRecoveryHeadway_radii = 3;
+// Of a robot without headway, however often it has drawn back.
+constexpr StuckRecoveryOptions kRecovery{.timeout_s = 60, .headway_radii = 3};
 constexpr double kSurfaceCell_m = 0.15;
 
 constexpr std::array kRangeSensors{SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
@@ -67,7 +67,7 @@ Explorer::Explorer(const Robot& robot, const ControllerSetup& setup, double warm
                    const mrpt::math::TPose2D& map_from_start)
     : warm_(warm),
       rng_(setup.seed, RandomPurpose::controller, setup.robot),
-      recovery_(setup, {.timeout_s = kRecovery_s, .headway_radii = kRecoveryHeadway_radii}),
+      recovery_(setup, kRecovery),
       has_noise_(isNoisy(robot)),
       tracker_(map_from_start, has_noise_),
       matcher_(kSurfaceCell_m),

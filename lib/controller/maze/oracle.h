@@ -23,7 +23,7 @@ class Oracle : public Controller {
       : setup_(setup),
         heat_threshold_(heat_threshold),
         tracker_(setup.world_from_start.value_or(mrpt::math::TPose2D())),
-        recovery_(setup, {.timeout_s = 4, .headway_radii = 0.5}) {}
+        recovery_(setup, kRecovery) {}
   void step(Robot& robot) override;
   std::unique_ptr<Controller> clone() const override { return std::make_unique<Oracle>(*this); }
   bool hasDrawnRandomNumbers() const override { return recovery_.hasDrawnRandomNumbers(); }
@@ -32,6 +32,8 @@ class Oracle : public Controller {
   const std::vector<Cell>& path() const { return path_; }
 
  private:
+  static constexpr StuckRecoveryOptions kRecovery{.timeout_s = 4, .headway_radii = 0.5};
+
   /// A map with the obstacles that work on it; copies work on their own map.
   struct Plan {
     Plan(double cell_m, double radius_m) : map(cell_m), obstacles(map, radius_m) {}

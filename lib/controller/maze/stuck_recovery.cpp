@@ -24,25 +24,30 @@ constexpr double kGap_m = 0.02;
 constexpr std::uint64_t kPauseSteps = 10;
 constexpr std::uint32_t kRandomItem = 1;  // random stream separate from the controller's
 
+/// Steps of a turn or drive; half of all steps for one that takes longer.
+std::uint32_t stepsIn(double seconds, const Robot& robot) {
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(robot.stepsIn(seconds), 1u << 31));
+}
+
 }  // namespace
 
 bool StuckRecovery::takesOver(Robot& robot) {
-  const std::uint64_t now = robot.stepNumber();
+  const auto now = static_cast<std::uint32_t>(robot.stepNumber());
   const bool was_paused = now > called_step_ + kPauseSteps;
   called_step_ = now;
-  if (was_paused || hasLeft(stay_, options_.headway_radii, robot)) {
+  if (was_paused || hasLeft(stay_, options_->headway_radii, robot)) {
     const auto& pose = robot.odometry().odom_from_robot;
     const Stay here{{pose.x, pose.y}, now};
-    if (was_paused || hasLeft(pocket_, options_.pocket_radii, robot)) pocket_ = here;
+    if (was_paused || hasLeft(pocket_, options_->pocket_radii, robot)) pocket_ = here;
     stay_ = here;
-    is_in_pocket_ = now >= pocket_.since + robot.stepsIn(options_.pocket_timeout_s);
+    is_in_pocket_ = now >= pocket_.since + robot.stepsIn(options_->pocket_timeout_s);
     if (!is_in_pocket_) {
       is_active_ = false;
       return false;
     }
   }
   if (!is_active_) {
-    if (!is_in_pocket_ && now < stay_.since + robot.stepsIn(options_.timeout_s)) return false;
+    if (!is_in_pocket_ && now < stay_.since + robot.stepsIn(options_->timeout_s)) return false;
     is_active_ = true;
     has_drawn_ = true;
     turn_until_ = drive_until_ = now;
@@ -65,14 +70,14 @@ bool StuckRecovery::hasLeft(const Stay& stay, double radii, const Robot& robot) 
 
 void StuckRecovery::turnOrDrive(Robot& robot) {
   const MotionLimits& limits = robot.info().limits;
-  const std::uint64_t now = robot.stepNumber();
+  const auto now = static_cast<std::uint32_t>(robot.stepNumber());
   const bool is_blocked = robot.stalled() || clearanceInLane(robot, 1) < kGap_m;
   if (now >= turn_until_ && (is_blocked || now >= drive_until_)) {
     Rng rng(seed_, RandomPurpose::controller, robot_, kRandomItem, now);
     turn_ = rng.below(2) == 0 ? kTurn : -kTurn;
     const double angle_rad = rng.uniform(kTurnMin_rad, kTurnMax_rad);
-    turn_until_ = now + robot.stepsIn(angle_rad / (kTurn * limits.turn_max_radps));
-    drive_until_ = turn_until_ + robot.stepsIn(rng.uniform(kDriveMin_s, kDriveMax_s));
+    turn_until_ = now + stepsIn(angle_rad / (kTurn * limits.turn_max_radps), robot);
+    drive_until_ = turn_until_ + stepsIn(rng.uniform(kDriveMin_s, kDriveMax_s), robot);
   }
   const bool turns = now < turn_until_;
   robot.drive(turns ? 0 : kSpeed * limits.speed_max_mps, turns ? turn_ * limits.turn_max_radps : 0);
@@ -80,13 +85,13 @@ void StuckRecovery::turnOrDrive(Robot& robot) {
 
 void StuckRecovery::followBoundary(Robot& robot) {
   const MotionLimits& limits = robot.info().limits;
-  const std::uint64_t now = robot.stepNumber();
+  const auto now = static_cast<std::uint32_t>(robot.stepNumber());
   const std::uint64_t rounds = (now - pocket_.since) / robot.stepsIn(kRound_s);
   const double side = rounds % 2 == 0 ? 1 : -1;
   if (now >= turn_until_ && (robot.stalled() || clearanceInLane(robot, 1) < kGap_m)) {
     Rng rng(seed_, RandomPurpose::controller, robot_, kRandomItem, now);
     const double angle_rad = rng.uniform(kAwayMin_rad, kAwayMax_rad);
-    turn_until_ = now + robot.stepsIn(angle_rad / (kTurn * limits.turn_max_radps));
+    turn_until_ = now + stepsIn(angle_rad / (kTurn * limits.turn_max_radps), robot);
   }
   const double speed_mps = kSpeed * limits.speed_max_mps;
   if (now < turn_until_) {

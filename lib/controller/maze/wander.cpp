@@ -47,12 +47,12 @@ void Wander::step(Robot& robot) {
   const Readings& readings = robot.readings();
   const MotionLimits& limits = info.limits;
   const double radius = info.radius_m;
-  const std::uint64_t now = readings.time.step;
+  const auto now = static_cast<std::uint32_t>(readings.time.step);
   const Clearance clearance = clearanceInFront(robot, info, readings);
   const bool near = clearance.ahead() < kNear * radius || readings.stalled;
   // An obstacle met during a slight turn requires a new decision at once: a stall is reported for one step only.
   if (now >= turn_until_ || (near && std::abs(turn_) < kAvoidTurn)) {
-    Rng rng(seed_, RandomPurpose::controller, robot_, 0, now);
+    Rng rng(recovery_.seed(), RandomPurpose::controller, recovery_.robot(), 0, now);
     if (near) {
       turn_ = std::copysign(rng.uniform(kAvoidTurn, 0.9), clearance.left - clearance.right);
       turn_until_ = now + 3 + rng.below(12);  // prevents oscillation in corners

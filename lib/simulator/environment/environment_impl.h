@@ -157,7 +157,7 @@ struct Environment::Impl {
     may_have_messages = true;
     may_send.resize(state.outboxes.size());
     std::transform(state.outboxes.begin(), state.outboxes.end(), may_send.begin(),
-                   [](const Outbox& outbox) -> std::uint8_t { return outbox == Outbox() ? 0 : 1; });
+                   [](const Rare<Outbox>& outbox) -> std::uint8_t { return outbox ? 1 : 0; });
   }
 
   void noteAbsentRobots() {

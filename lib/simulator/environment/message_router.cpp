@@ -63,7 +63,7 @@ void MessageRouter::setRobots(std::vector<std::string> names) {
   std::sort(by_name_.begin(), by_name_.end(), [&](auto a, auto b) { return names_[a] < names_[b]; });
 }
 
-void MessageRouter::send(std::size_t from, const std::string& to, const std::string& text, Outbox& outbox) const {
+void MessageRouter::send(std::size_t from, const std::string& to, const std::string& text, Rare<Outbox>& outbox) const {
   const auto found =
       std::lower_bound(by_name_.begin(), by_name_.end(), to,
                        [&](std::uint32_t robot, const std::string& name) { return names_[robot] < name; });
@@ -75,7 +75,7 @@ void MessageRouter::send(std::size_t from, const std::string& to, const std::str
   queue({*found, text}, outbox);
 }
 
-void MessageRouter::broadcast(std::size_t from, const std::string& text, Outbox& outbox) const {
+void MessageRouter::broadcast(std::size_t from, const std::string& text, Rare<Outbox>& outbox) const {
   requireShort(from, "all", text);
   queue({kEveryOtherRobot, text}, outbox);
 }
@@ -92,12 +92,13 @@ void MessageRouter::requireShort(std::size_t from, const std::string& to, const 
                               std::to_string(text.size()) + " bytes; the most is " + std::to_string(kMaxMessageBytes));
 }
 
-void MessageRouter::queue(PendingMessage message, Outbox& outbox) {
-  if (outbox.messages.size() == kMaxMessagesSent) {
-    ++outbox.surplus;
+void MessageRouter::queue(PendingMessage message, Rare<Outbox>& outbox) {
+  if (!outbox) outbox.emplace();
+  if (outbox->messages.size() == kMaxMessagesSent) {
+    ++outbox->surplus;
     return;
   }
-  outbox.messages.push_back(std::move(message));
+  outbox->messages.push_back(std::move(message));
 }
 
 template <typename Text>
@@ -163,10 +164,11 @@ void MessageRouter::transmitToAll(std::uint32_t from, std::size_t index, const s
   for (const std::uint32_t to : near_) transmit_to(to);
 }
 
-void MessageRouter::deliverFrom(std::uint32_t from, Outbox& outbox, Delivery& delivery) {
-  if (delivery.robots.activity[from] == Activity::absent) outbox = {};
+void MessageRouter::deliverFrom(std::uint32_t from, Rare<Outbox>& kept, Delivery& delivery) {
+  if (delivery.robots.activity[from] == Activity::absent) kept.reset();
+  if (!kept) return;
+  Outbox& outbox = *kept;
   delivery.counts.dropped += std::exchange(outbox.surplus, 0);
-  if (outbox.messages.empty()) return;
   const auto sent = static_cast<std::size_t>(
       std::min<std::uint64_t>(outbox.messages.size(), messagesAllowed(communication_, delivery.now)));
   std::size_t index = 0;
@@ -180,9 +182,10 @@ void MessageRouter::deliverFrom(std::uint32_t from, Outbox& outbox, Delivery& de
     index += message.receiversOf(names_.size());
   }
   outbox.messages.erase(outbox.messages.begin(), outbox.messages.begin() + static_cast<std::ptrdiff_t>(sent));
+  if (outbox.messages.empty()) kept.reset();
 }
 
-MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
+MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Rare<Outbox>> outboxes,
                                      std::vector<MessageInFlight>& in_flight, std::span<Readings> readings) {
   receivers_.clear();
   Delivery delivery{seed, now, robots, in_flight, readings};
@@ -206,7 +209,7 @@ MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robo
   forFlags(robots.may_send, [&](std::size_t from) {
     receive_due_from_up_to(from);
     deliverFrom(static_cast<std::uint32_t>(from), outboxes[from], delivery);
-    robots.may_send[from] = outboxes[from].messages.empty() ? 0 : 1;
+    robots.may_send[from] = outboxes[from] ? 1 : 0;
   });
   receive_due_from_up_to(names_.size());
   for (const auto robot : receivers_) limits_[robot] = {};

@@ -6,6 +6,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include "base/rare.h"
 #include "base/sim_time.h"
 #include "environment/radio_channel.h"
 #include "hardware/command.h"
@@ -29,7 +30,8 @@ struct PendingMessage {
   std::uint64_t receiversOf(std::size_t robots) const { return isBroadcast() ? robots - 1 : 1; }
 };
 
-/// Messages that a robot has sent since the last step, in the order of sending. A broadcast is one of them.
+/// Messages that a robot has sent since the last step, in the order of sending. A broadcast is one of them. A robot that
+/// has sent none has no outbox.
 struct Outbox {
   std::vector<PendingMessage> messages;  ///< at most kMaxMessagesSent
   std::uint64_t surplus = 0;             ///< number of messages beyond kMaxMessagesSent
@@ -91,9 +93,9 @@ class MessageRouter {
 
   /// Queues a message in the outbox of its sender `from`. May be called for different senders from different threads.
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long
-  void send(std::size_t from, const std::string& to, const std::string& text, Outbox& outbox) const;
+  void send(std::size_t from, const std::string& to, const std::string& text, Rare<Outbox>& outbox) const;
   /// The same for one message to every other robot.
-  void broadcast(std::size_t from, const std::string& text, Outbox& outbox) const;
+  void broadcast(std::size_t from, const std::string& text, Rare<Outbox>& outbox) const;
 
   /// Inserts a message into those in flight that arrives with the next delivery.
   /// @throws std::invalid_argument for a text that is too long
@@ -106,7 +108,7 @@ class MessageRouter {
     std::span<const mrpt::math::TPose2D> world_from_robot;
     std::span<const double> antenna_z_m;  ///< heights of the antennas
     std::span<const Activity> activity;
-    /// 0: the robot's outbox is empty, 1: perhaps not. Updated by deliver().
+    /// 0: the robot has no outbox, 1: perhaps. Updated by deliver().
     std::span<std::uint8_t> may_send;
 
     mrpt::math::TPoint3D antenna(std::size_t robot) const {
@@ -121,7 +123,7 @@ class MessageRouter {
   /// many messages, in the world's order of their receivers.
   /// @param seed of the loss of messages @param in_flight ordered by due_step, then by sender
   /// @pre the inboxes are empty
-  MessageCounts deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
+  MessageCounts deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Rare<Outbox>> outboxes,
                         std::vector<MessageInFlight>& in_flight, std::span<Readings> readings);
   /// The robots into whose inboxes the last call of deliver() has put messages, each once.
   const std::vector<std::uint32_t>& receivers() const { return receivers_; }
@@ -130,9 +132,9 @@ class MessageRouter {
   struct Delivery;
   /// @throws std::invalid_argument for a text that is too long
   void requireShort(std::size_t from, const std::string& to, const std::string& text) const;
-  static void queue(PendingMessage message, Outbox& outbox);
+  static void queue(PendingMessage message, Rare<Outbox>& outbox);
   /// Moves the messages of one outbox.
-  void deliverFrom(std::uint32_t from, Outbox& outbox, Delivery& delivery);
+  void deliverFrom(std::uint32_t from, Rare<Outbox>& kept, Delivery& delivery);
   /// Sends a broadcast on its way to each receiver. @param index as of transmit(), of the first receiver
   void transmitToAll(std::uint32_t from, std::size_t index, const std::string& text, Delivery& delivery);
   /// Sends a message on its way to one receiver. @param index of the message among those of its sender in this step

@@ -11,7 +11,7 @@ namespace {
 struct Fixture {
   std::vector<mrpt::math::TPose2D> poses{{0, 0, 0}, {3, 4, 0}, {100, 0, 0}};
   std::vector<Readings> readings = std::vector<Readings>(3);
-  std::vector<Outbox> outboxes = std::vector<Outbox>(3);
+  std::vector<Rare<Outbox>> outboxes = std::vector<Rare<Outbox>>(3);
   std::vector<Activity> activity{Activity::active, Activity::active, Activity::active};
   SimTime time;
   std::vector<double> antenna_z_m{0.3, 0.3, 0.3};

@@ -17,7 +17,7 @@ struct TwoRobots {
   std::vector<mrpt::math::TPose2D> poses{{0, 0, 0}, {10, 0, 0}};
   std::vector<double> antenna_z_m{0.3, 0.3};
   std::vector<Activity> activity{Activity::active, Activity::active};
-  std::vector<Outbox> outboxes = std::vector<Outbox>(2);
+  std::vector<Rare<Outbox>> outboxes = std::vector<Rare<Outbox>>(2);
   std::vector<std::uint8_t> may_send{0, 0};
   std::vector<MessageInFlight> in_flight;
   std::vector<Readings> readings = std::vector<Readings>(2);

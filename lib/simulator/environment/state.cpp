@@ -111,7 +111,7 @@ void resetRobot(State& state, std::size_t robot, Activity activity, const RobotM
   state.activity[robot] = activity;
   state.laser_pan_rad[robot] = 0;
   state.commands[robot] = {.activity = activity};
-  state.outboxes[robot] = {};
+  state.outboxes[robot].reset();
   state.win_requests[robot] = 0;
   Readings& readings = state.readings[robot];
   readings.inbox.clear();
@@ -137,9 +137,10 @@ void requireSameShape(const State& saved, const State& own) {
 std::uint64_t messagesSent(const State& state) {
   std::uint64_t sent =
       state.messages_delivered + state.messages_dropped + state.messages_lost.total() + state.messages_in_flight.size();
-  for (const Outbox& outbox : state.outboxes) {
-    sent += outbox.surplus;
-    for (const PendingMessage& message : outbox.messages) sent += message.receiversOf(state.outboxes.size());
+  for (const auto& outbox : state.outboxes) {
+    if (!outbox) continue;
+    sent += outbox->surplus;
+    for (const PendingMessage& message : outbox->messages) sent += message.receiversOf(state.outboxes.size());
   }
   return sent;
 }

@@ -62,7 +62,7 @@ struct State {
   std::vector<Activity> activity;
   std::vector<float> laser_pan_rad;
   std::vector<Command> commands;           ///< the last ones; after a step, those used in it; finite
-  std::vector<Outbox> outboxes;            ///< messages for the next step
+  std::vector<Rare<Outbox>> outboxes;      ///< messages for the next step
   std::vector<std::uint8_t> win_requests;  ///< 1 for a robot that requests CheckWin with the next step
   std::vector<Readings> readings;
   std::vector<ClosedGripper> closed_grippers;  ///< in ascending order of robots

@@ -131,9 +131,11 @@ void writeRobot(const State& state, std::size_t i, StateWriter& out) {
   writeCommand(state.commands[i], out);
 
   out.addNumber(state.win_requests[i]);
-  out.addNumber(state.outboxes[i].surplus);
-  out.addNumber(static_cast<std::uint32_t>(state.outboxes[i].messages.size()));
-  for (const PendingMessage& message : state.outboxes[i].messages) {
+  static const Outbox kEmpty;
+  const Outbox& outbox = state.outboxes[i] ? *state.outboxes[i] : kEmpty;
+  out.addNumber(outbox.surplus);
+  out.addNumber(static_cast<std::uint32_t>(outbox.messages.size()));
+  for (const PendingMessage& message : outbox.messages) {
     out.addNumber(message.to);
     out.addText(message.text);
   }
@@ -179,11 +181,12 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   state.commands[i] = readCommand(in);
 
   state.win_requests[i] = in.takeFlag() ? 1 : 0;
-  state.outboxes[i].surplus = in.takeNumber<std::uint64_t>();
+  const auto surplus = in.takeNumber<std::uint64_t>();
   const auto sent = in.takeNumber<std::uint32_t>();
   requireContents(sent <= kMaxMessagesSent, "a robot has sent too many messages");
+  if (surplus > 0 || sent > 0) state.outboxes[i].emplace().surplus = surplus;
   for (std::uint32_t k = 0; k < sent; ++k) {
-    PendingMessage& message = state.outboxes[i].messages.emplace_back();
+    PendingMessage& message = state.outboxes[i]->messages.emplace_back();
     message.to = in.takeNumber<std::uint32_t>();
     requireContents(message.to < model.fleet.robots.size() || message.isBroadcast(),
                     "a message has an unknown receiver");

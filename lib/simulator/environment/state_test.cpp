@@ -172,12 +172,12 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { s.commands[1].camera_head.aim.tilt_rad += 1; },
       [](State& s) { s.closed_grippers.push_back({.robot = 1, .object = {}}); },
       [](State& s) {
-        s.outboxes[1].messages.push_back({0, "x"});
+        s.outboxes[1].emplace().messages.push_back({0, "x"});
       },
       [](State& s) {
-        s.outboxes[1].messages.push_back({kEveryOtherRobot, "x"});
+        s.outboxes[1].emplace().messages.push_back({kEveryOtherRobot, "x"});
       },
-      [](State& s) { ++s.outboxes[1].surplus; },
+      [](State& s) { ++s.outboxes[1].emplace().surplus; },
       [](State& s) { s.win_requests[1] ^= 1; },
       [](State& s) {
         s.readings[1].inbox.push_back({"r0", "r1", "x"});

@@ -24,7 +24,7 @@ struct PhaseResults {
 /// exchange it before begin().
 struct StepOrders {
   std::span<Command> commands;
-  std::span<Outbox> outboxes;
+  std::span<Rare<Outbox>> outboxes;
   std::span<std::uint8_t> may_send;  ///< 1 for a robot whose outbox may have messages
   std::span<std::uint8_t> win_requests;
   std::span<Activity> activity;  ///< of the last step; set for robots that are not known and change it
