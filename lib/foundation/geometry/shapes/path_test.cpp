@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/angle_units.h"
+#include "base/random.h"
+#include "geometry/shapes/chord_batch.h"
 #include "geometry/testing/random_scene.h"
 #include "geometry/testing/slow_geometry.h"
 
@@ -295,6 +297,34 @@ TEST(FirstExit, AgreesWithASlowSearchOverRandomPaths) {
     exits += fast < 1;
   }
   EXPECT_GT(exits, 1000);
+}
+
+TEST(Path, EndPosesOfManyPathsAreThoseOfEach) {
+  Rng rng(1);
+  for (std::size_t count = 0; count <= ChordBatch::kCapacity; ++count) {
+    std::vector<Path> paths(count);
+    std::vector<const Path*> pointers;
+    std::vector<mrpt::math::TPose2D> poses(count);
+    std::vector<mrpt::math::TPose2D*> to;
+    for (std::size_t i = 0; i < count; ++i) {
+      Path& path = paths[i];
+      path.world_from_start = {rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-M_PI, M_PI)};
+      if (rng.below(4) > 0) path.length_m = rng.uniform(-0.1, 0.1);
+      if (rng.below(2) == 0) path.turn_rad = rng.uniform(-0.4, 0.4);
+      if (rng.below(4) == 0) path.end_fraction = rng.uniform();
+      if (rng.below(4) == 0) path.direction_rad = rng.uniform(-1, 1);
+      path.turn_stops = rng.below(4) == 0;
+      pointers.push_back(&path);
+      to.push_back(&poses[i]);
+    }
+    computeEndPoses(pointers, to);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto expected = paths[i].endPose();
+      ASSERT_EQ(poses[i].x, expected.x) << i << " of " << count;
+      ASSERT_EQ(poses[i].y, expected.y);
+      ASSERT_EQ(poses[i].phi, expected.phi);
+    }
+  }
 }
 
 }  // namespace
