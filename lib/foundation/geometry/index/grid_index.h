@@ -81,7 +81,9 @@ class GridIndex {
     if (!area_.contains(at)) return visitArea(area, visit);
     const auto at_x = static_cast<float>(at.x - middle_.x);
     const auto at_y = static_cast<float>(at.y - middle_.y);
-    const auto wider_m = static_cast<float>(reach_m * (1 + kCullRelativeError));
+    // At most half of the largest number, so that unused entries of packs never match.
+    const auto wider_m =
+        static_cast<float>(std::min(reach_m * (1 + kCullRelativeError), double{std::numeric_limits<float>::max()} / 2));
     const int left = column(area.x_min), right = column(area.x_max);
     const int top = row(area.y_max);
     for (int y = row(area.y_min); y <= top; ++y) {

@@ -1,7 +1,9 @@
 #include "geometry/index/neighbour_list.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +93,14 @@ TEST(NeighbourList, ContainsAllSolidsWithinReach) {
       }
     }
   }
+}
+
+TEST(NeighbourList, ContainsAllSolidsAtInfiniteReach) {
+  const GridIndex grid = pillarsAhead();
+  NeighbourList list;
+  const double infinity = std::numeric_limits<double>::infinity();
+  list.update(grid, {0, 0}, infinity);
+  EXPECT_EQ(near(grid, list, {0, 0}, infinity).solids, (std::vector<std::uint32_t>{1, 3, 0, 2}));
 }
 
 }  // namespace
