@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kColumns = 50;
 constexpr double kPitch_m = 4;
 
-WorldObject boxAt(double x_m, double y_m, double length_m, double width_m) {
+WorldObject standingBox(double x_m, double y_m, double length_m, double width_m) {
   const Body body{.shape = Cube{length_m, width_m}, .world_from_body = {x_m, y_m, 0}, .center_z_m = 0.5, .height_m = 1};
   return {.name = "box", .body = body, .line = {}};
 }
@@ -29,8 +29,8 @@ LoadedWorld worldOf(std::size_t robots) {
   for (std::size_t i = 0; i < robots; ++i) {
     const double x_m = kPitch_m * (static_cast<double>(i % kColumns) - 0.5 * kColumns);
     const double y_m = kPitch_m * (static_cast<double>(i / kColumns) - 0.5 * kColumns);
-    world.objects.push_back(boxAt(x_m + 2, y_m, 0.8, 0.8));
-    if (i % 4 == 0) world.objects.push_back(boxAt(x_m, y_m + 2, 4, 0.1));
+    world.objects.push_back(standingBox(x_m + 2, y_m, 0.8, 0.8));
+    if (i % 4 == 0) world.objects.push_back(standingBox(x_m, y_m + 2, 4, 0.1));
     RobotPlacement robot;
     robot.name = "r" + std::to_string(i);
     robot.model = "disc";
@@ -71,7 +71,8 @@ TEST(MemoryPerRobot, IsBounded) {
   if (!MemoryBound::kBounds) GTEST_SKIP() << "the address sanitizer has another allocator";
   constexpr std::size_t kSome = 1000, kMore = 2000;
   bytesOf(kMore);  // fills what is kept by threads
-  const double per_robot = (static_cast<double>(bytesOf(kMore)) - static_cast<double>(bytesOf(kSome))) / (kMore - kSome);
+  const double per_robot =
+      (static_cast<double>(bytesOf(kMore)) - static_cast<double>(bytesOf(kSome))) / (kMore - kSome);
   RecordProperty("bytes", static_cast<int>(per_robot));
   EXPECT_LT(per_robot, 2048);
   EXPECT_GT(per_robot, 500) << "the measurement itself";
