@@ -30,7 +30,7 @@ constexpr double kFollow_s = 120;         // maximum time, then it explores
 constexpr double kExplore_s = 60;         // for so long
 constexpr double kNothingLeft_s = 5;      // then it starts a new map
 constexpr double kStuck_s = 1.5;
-constexpr int kStallMax = 1;        // steps in a row, if sensors are noisy
+constexpr int kStallMax = 1;  // steps in a row, if sensors are noisy
 // Of a robot without headway, however often it has drawn back.
 constexpr StuckRecoveryOptions kRecovery{.timeout_s = 60, .headway_radii = 3};
 constexpr double kSurfaceCell_m = 0.15;

@@ -16,9 +16,9 @@ struct Readings {
   bool stalled = false;                   ///< the last motion was clipped or refused
   bool is_too_far = false;                ///< it requested CheckWin and is not near enough to the gold
   std::vector<RobotMessage>
-      inbox;                ///< sent in the last step, ordered by sender (as the world lists them), then as sent
-  std::string winner;       ///< the robot that has won, upon which all halt; empty while there is none, and always
-                            ///< without a referee (Hardware::referee())
+      inbox;           ///< sent in the last step, ordered by sender (as the world lists them), then as sent
+  std::string winner;  ///< the robot that has won, upon which all halt; empty while there is none, and always
+                       ///< without a referee (Hardware::referee())
   bool operator==(const Readings&) const = default;
 };
 

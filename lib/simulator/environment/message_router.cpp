@@ -185,8 +185,9 @@ void MessageRouter::deliverFrom(std::uint32_t from, Rare<Outbox>& kept, Delivery
   if (outbox.messages.empty()) kept.reset();
 }
 
-MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Rare<Outbox>> outboxes,
-                                     std::vector<MessageInFlight>& in_flight, std::span<Readings> readings) {
+MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots,
+                                     std::span<Rare<Outbox>> outboxes, std::vector<MessageInFlight>& in_flight,
+                                     std::span<Readings> readings) {
   receivers_.clear();
   Delivery delivery{seed, now, robots, in_flight, readings};
   std::vector<MessageInFlight> due;

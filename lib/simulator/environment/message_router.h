@@ -30,8 +30,8 @@ struct PendingMessage {
   std::uint64_t receiversOf(std::size_t robots) const { return isBroadcast() ? robots - 1 : 1; }
 };
 
-/// Messages that a robot has sent since the last step, in the order of sending. A broadcast is one of them. A robot that
-/// has sent none has no outbox.
+/// Messages that a robot has sent since the last step, in the order of sending. A broadcast is one of them. A robot
+/// that has sent none has no outbox.
 struct Outbox {
   std::vector<PendingMessage> messages;  ///< at most kMaxMessagesSent
   std::uint64_t surplus = 0;             ///< number of messages beyond kMaxMessagesSent

@@ -24,10 +24,7 @@ bool isStill(const Path& path) { return path.clippedLength() == 0 && (!path.turn
 }  // namespace
 
 MoveAuthorisation::MoveAuthorisation(const std::vector<Mover>& movers, const Bounds2D& surface)
-    : movers_(movers),
-      surface_(surface),
-      may_have_neighbours_(movers_.size(), 0),
-      stays_(movers_.size(), 0) {
+    : movers_(movers), surface_(surface), may_have_neighbours_(movers_.size(), 0), stays_(movers_.size(), 0) {
   for (const auto& mover : movers_.values()) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 

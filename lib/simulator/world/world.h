@@ -42,7 +42,7 @@ struct RobotPlacement {
   Rare<Body> body;  ///< from <cylinder> or <cube>; absent: the model's. Its pose is world_from_robot
   std::optional<std::array<float, 3>> color;  ///< instead of the model's, when `body` is absent
   std::vector<XmlElement>
-      sensors;  ///< 2005's <sensor> elements and those inside <sensors>, in file units, not yet interpreted
+      sensors;             ///< 2005's <sensor> elements and those inside <sensors>, in file units, not yet interpreted
   Rare<XmlElement> drive;  ///< instead of the model's; not yet interpreted
   std::string controller;  ///< as TypeChoice::text(), not yet checked; empty: the program's default
   SourceLine controller_line;
