@@ -102,8 +102,20 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers, const Order& orde
   last_row_ = rows_ - 1;
 }
 
+void CenterIndex::buildOne(std::size_t solid) {
+  const GridItem& item = items_[solid];
+  centers_ = area_ = {item.x, item.x, item.y, item.y};
+  reach_max_m_ = item.reach();
+  cell_m_ = kCellMin_m;
+  per_m_ = 1 / kCellMin_m;
+  columns_ = rows_ = 1;
+  begin_.assign({0, 1});
+  entries_[0] = {CullDisc::from(item, middle()), static_cast<std::uint32_t>(solid)};
+}
+
 template <typename Order>
 void CenterIndex::buildFrom(const ParallelExecutor& workers, const Order& order) {
+  if (order.size() == 1 && !items_[order[0]].isRemoved()) return buildOne(order[0]);
   chooseCells(workers, order);
   if (workers.threads() > 1 && ParallelExecutor::piecesOf(order.size()) > 1) return sortInParallel(workers, order);
   begin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);

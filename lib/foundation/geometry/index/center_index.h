@@ -100,6 +100,8 @@ class CenterIndex {
   void chooseCells(const ParallelExecutor& workers, const Order& order);
   template <typename Order>
   void buildFrom(const ParallelExecutor& workers, const Order& order);
+  /// The same as buildFrom() of a single solid, such as the only robot of a world, in a tenth of its time.
+  void buildOne(std::size_t solid);
   template <typename Order>
   void sortInParallel(const ParallelExecutor& workers, const Order& order);
 
