@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -83,6 +84,8 @@ struct Environment::Impl {
   std::vector<ObjectMotion> motions;  ///< of the movable objects: of State::objects and State::object_speeds
   std::vector<HeldObject> held;       ///< of State::closed_grippers
   std::vector<std::uint32_t> robots_with_gripper;
+  std::optional<Referee> referee;  ///< of `referee_objects`
+  ChangedObjects referee_objects;
   MessageRouter message_router;
   IsSensed is_sensed;  ///< null: all sensors are computed
   RobotGroups robot_groups;
@@ -312,15 +315,18 @@ struct Environment::Impl {
   }
 
   void sense(RobotRange range, SensorGroup which) {
-    const Snapshot now = snapshot();
+    const bool is_host = which == SensorGroup::in_host_process;
+    std::optional<Snapshot> taken;  // only if a sensor needs it, because it has many parts
     for (const RobotGroup& group : robot_groups.groups) {
-      const auto& slots = which == SensorGroup::in_host_process ? group.host_slots : group.slots;
+      const auto& slots = is_host ? group.host_slots : group.slots;
+      if (is_host && slots.empty()) continue;
+      if (!slots.empty() && !taken) taken.emplace(snapshot());
       const auto of_group = group.within(range);
       workers.forChunks(of_group.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> kept;
         const auto robots = presentOf(of_group.subspan(begin, end - begin), kept);
         for (const auto i : robots) scene.updateNeighbours(i, group.reach_m);
-        for (const auto slot : slots) group.model->sensors[slot]->sense(now, robots, slot, state.readings);
+        for (const auto slot : slots) group.model->sensors[slot]->sense(*taken, robots, slot, state.readings);
       });
     }
   }
@@ -451,9 +457,17 @@ struct Environment::Impl {
     share.kept = range;
   }
 
+  /// The referee of the present objects, which is made again only when they have changed.
+  const Referee& refereeNow() {
+    if (!referee || !referee_objects.isSameList(state.objects)) {
+      referee.emplace(objects(), model->world.win_distance_m);
+      referee_objects = state.objects;
+    }
+    return *referee;
+  }
+
   void decideWinner() {
-    const Referee referee(objects(), model->world.win_distance_m);
-    const auto winner = referee.decide(state.win_requests, [this](std::size_t robot) {
+    const auto winner = refereeNow().decide(state.win_requests, [this](std::size_t robot) {
       const auto& pose = state.world_from_robot[robot];
       return Circle{{pose.x, pose.y}, fleet().robots[robot].info.radius_m};
     });

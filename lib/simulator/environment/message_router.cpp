@@ -189,6 +189,7 @@ MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robo
                                      std::span<Rare<Outbox>> outboxes, std::vector<MessageInFlight>& in_flight,
                                      std::span<Readings> readings) {
   receivers_.clear();
+  if (in_flight.empty() && !anyFlag(robots.may_send)) return {};
   Delivery delivery{seed, now, robots, in_flight, readings};
   std::vector<MessageInFlight> due;
   if (!in_flight.empty()) {

@@ -62,6 +62,7 @@ void MoveAuthorisation::clip(const Scene& scene, const ParallelExecutor& workers
 // order-independent.
 void MoveAuthorisation::judge(const Scene& scene, const ParallelExecutor& workers, RobotRange range,
                               std::span<const Path> paths) {
+  if (movers_.size() == 1) return;  // begin() has noted that nothing makes it stay
   workers.forEach(range.end - range.begin, kPathChunk, [&](std::size_t k) {
     const std::size_t i = range.begin + k;
     stays_[i] = collidesWithAnother(scene, i, paths) ? 1 : 0;
