@@ -285,20 +285,30 @@ void reset(PythonBatch& of, py::array observations, const py::object& mask) {
   of.exclusively([&](EnvironmentBatch& batch) { batch.reset(out, which); });
 }
 
-void step(PythonBatch& of, const py::object& actions, py::array observations, py::array rewards, py::array terminated,
-          py::array truncated) {
+/// @return stepsOf() and goldFoundIn() after the step, and whether any episode has ended in it: in one call, because a
+/// look at each environment costs cache misses
+py::tuple step(PythonBatch& of, const py::object& actions, py::array observations, py::array rewards,
+               py::array terminated, py::array truncated) {
   const auto given = numbersOf<float>("actions", actions, {of.environments(), of.agents(), of.actionSize()});
   const auto environments = static_cast<std::size_t>(of.environments());
   const auto flags = [&](const char* what, py::array& array) {
     return std::span(reinterpret_cast<std::uint8_t*>(resultsOf<bool>(what, array, {of.environments()})), environments);
   };
+  py::array_t<std::int64_t> steps(of.environments());
+  py::array_t<bool> gold_found(of.environments());
   const BatchResults results{observationsOf(of, observations),
                              {resultsOf<double>("rewards", rewards, {of.environments(), of.agents()}),
                               static_cast<std::size_t>(rewards.size())},
                              flags("terminations", terminated),
-                             flags("truncations", truncated)};
+                             flags("truncations", truncated),
+                             {steps.mutable_data(), environments},
+                             flags("gold_found", gold_found)};
   const std::span<const float> of_agents(given.data(), static_cast<std::size_t>(given.size()));
   of.exclusively([&](EnvironmentBatch& batch) { batch.step(of_agents, results); });
+  const auto any = [](std::span<const std::uint8_t> of_all) {
+    return std::find(of_all.begin(), of_all.end(), 1) != of_all.end();
+  };
+  return py::make_tuple(std::move(steps), std::move(gold_found), any(results.terminated) || any(results.truncated));
 }
 
 /// Name, height, width, layers and range of the depths of each picture among the observations.

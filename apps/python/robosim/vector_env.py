@@ -131,7 +131,7 @@ class VectorEnv(Copyable, VectorEnvBase):
         self._has_episode |= selected
         self._is_ready = bool(self._has_episode.all())
         self._sets.reverse()
-        return self._observed(results), self._infos(selected)
+        return self._observed(results), self._infos(selected, self._batch.steps, self._batch.gold_found)
 
     def set_interventions(self, environment, elements):
         """The following episodes of an environment begin with these changes, until others are set; [] for none.
@@ -158,18 +158,18 @@ class VectorEnv(Copyable, VectorEnvBase):
             raise RuntimeError("call reset() before the first step")
         actions = numbers_of(actions, "actions", self.action_space.shape).reshape(self._action_shape)
         results = self._sets[1]
-        self._batch.step(actions, results.observations, results.rewards, results.terminated, results.truncated)
+        steps, gold_found, have_ended = self._batch.step(actions, results.observations, results.rewards,
+                                                         results.terminated, results.truncated)
         results.take_pictures(self._batch)
         self._sets.reverse()
         rewards = results.rewards if len(self.action_space.shape) == 3 else results.rewards[:, 0]
-        infos = self._infos(self._all)
-        ended = results.terminated | results.truncated
-        if ended.any():
+        infos = self._infos(self._all, steps, gold_found)
+        if have_ended:
             reasons = [end_reason(*flags) for flags in zip(results.terminated, results.truncated)]
-            infos["ended_by"], infos["_ended_by"] = np.array(reasons, object), ended
-        if results.terminated.any():
-            infos["winner"] = self._batch.winners
-            infos["_winner"] = results.terminated.copy()
+            infos["ended_by"], infos["_ended_by"] = np.array(reasons, object), results.terminated | results.truncated
+            if results.terminated.any():
+                infos["winner"] = self._batch.winners
+                infos["_winner"] = results.terminated.copy()
         return self._observed(results), rewards, results.terminated, results.truncated, infos
 
     def render(self):
@@ -241,11 +241,10 @@ class VectorEnv(Copyable, VectorEnvBase):
                              f"for example seed=list(range({self.num_envs}))")
         return seeds
 
-    def _infos(self, which):
+    def _infos(self, which, steps, gold_found):
         """In Gymnasium's form: an array for each name, and whether it is given for each environment."""
-        steps = self._batch.steps
         return {"step": steps, "_step": which, "time_s": steps * self._batch.period_s, "_time_s": which,
-                "gold_found": self._batch.gold_found, "_gold_found": which}
+                "gold_found": gold_found, "_gold_found": which}
 
     def _observed(self, results):
         has_agents = len(self.action_space.shape) == 3

@@ -171,13 +171,29 @@ struct EnvironmentBatch::Impl {
   }
 
   void step(std::size_t i, std::span<const float> actions, const BatchResults& results) {
+    advance(i, actions, results);
+    observe(i, results.observations);
+    const State& state = episodes[i].environment->state();
+    if (!results.steps.empty()) results.steps[i] = static_cast<std::int64_t>(state.time.step);
+    if (!results.gold_found.empty()) results.gold_found[i] = state.found || state.won ? 1 : 0;
+  }
+
+  /// Reward of the present reading of an agent's heat sensor. Without a weight the reading, a cache miss, is not read.
+  double heatReward(std::size_t i, std::size_t agent) const {
+    if (options.reward.heat == 0) return 0;
+    const Episode& episode = episodes[i];
+    return options.reward.heat * heatOf(episode.environment->state(), agent, episode.world->heat_slots[agent]);
+  }
+
+  /// Takes the step of an environment, or begins its next episode.
+  void advance(std::size_t i, std::span<const float> actions, const BatchResults& results) {
     Episode& episode = episodes[i];
     const auto rewards = results.rewards.subspan(i * agents.count(), agents.count());
     results.terminated[i] = results.truncated[i] = 0;
     if (episode.is_over) {
       startEpisode(episode);
       std::fill(rewards.begin(), rewards.end(), 0.0);
-      return observe(i, results.observations);
+      return;
     }
     Environment& environment = *episode.environment;
     const State& state = environment.state();
@@ -192,20 +208,19 @@ struct EnvironmentBatch::Impl {
         command.lateral_mps = std::clamp(static_cast<double>(action[2]), -1.0, 1.0) * limit.lateral_max_mps;
       environment.setCommand(agent, command);
       environment.checkWin(agent);
-      rewards[agent] = -weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]);
+      rewards[agent] = -heatReward(i, agent);
     }
     if (episode.others) episode.others->act();
     environment.step();
     const bool is_won = state.winner().has_value();
     for (std::size_t agent = 0; agent < agents.count(); ++agent) {
-      rewards[agent] += weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]) +
-                        weights.win * (is_won ? 1 : 0) + weights.forward * state.last_motion[agent].length_m +
-                        weights.stall * state.stalled[agent] + weights.step;
+      rewards[agent] += heatReward(i, agent) + weights.win * (is_won ? 1 : 0) +
+                        weights.forward * state.last_motion[agent].length_m + weights.stall * state.stalled[agent] +
+                        weights.step;
     }
     results.terminated[i] = is_won ? 1 : 0;
     results.truncated[i] = !is_won && state.time.step >= options.steps_max ? 1 : 0;
     episode.is_over = results.terminated[i] || results.truncated[i];
-    observe(i, results.observations);
   }
 
   void checkActions(std::span<const float> actions) const {
@@ -312,6 +327,8 @@ void EnvironmentBatch::step(std::span<const float> actions, const BatchResults& 
   requireSize("the array of rewards", results.rewards.size(), robots);
   requireSize("the array of terminations", results.terminated.size(), environments);
   requireSize("the array of truncations", results.truncated.size(), environments);
+  if (!results.steps.empty()) requireSize("the array of steps", results.steps.size(), environments);
+  if (!results.gold_found.empty()) requireSize("the array of gold found", results.gold_found.size(), environments);
   impl_->checkActions(actions);
   impl_->workers.forEach(environments, 4, [&](std::size_t i) { impl_->step(i, actions, results); });
 }

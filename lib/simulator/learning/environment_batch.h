@@ -38,9 +38,11 @@ struct SavedEpisode {
 struct BatchResults {
   /// Environments × agents × observationSize(). The end of an agent's observation that is shorter is 0.
   std::span<float> observations;
-  std::span<double> rewards;           ///< environments × agents
-  std::span<std::uint8_t> terminated;  ///< by environment; 1 when the world was won in this step
-  std::span<std::uint8_t> truncated;   ///< by environment; 1 when the episode has reached BatchOptions::steps_max
+  std::span<double> rewards;                ///< environments × agents
+  std::span<std::uint8_t> terminated;       ///< by environment; 1 when the world was won in this step
+  std::span<std::uint8_t> truncated;        ///< by environment; 1 when the episode has reached BatchOptions::steps_max
+  std::span<std::int64_t> steps = {};       ///< by environment: number of steps of the episode; empty: not written
+  std::span<std::uint8_t> gold_found = {};  ///< by environment: whether a robot has found the gold; empty: not written
 };
 
 /// Memory of the caller for pictures of one name, environments × agents × rows × columns in row-major order; empty for

@@ -206,6 +206,30 @@ TEST(EnvironmentBatch, TruncatesEpisodesAfterTheGivenNumberOfSteps) {
   EXPECT_EQ(rewards, (std::vector<double>{-1, -1, -1, 0, -1, -1, -1, 0}));
 }
 
+TEST(EnvironmentBatch, WritesStepsAndWhetherTheGoldIsFoundOnRequest) {
+  BatchOptions options = poseOptions(2);
+  EnvironmentBatch batch(worldsOf(worldWithGold()), options);
+  Arrays arrays(batch);
+  batch.reset(arrays.observations);
+  std::vector<std::int64_t> steps(2);
+  std::vector<std::uint8_t> gold_found(2);
+  BatchResults results = arrays.results();
+  results.steps = steps;
+  results.gold_found = gold_found;
+  const std::vector<float> actions{1, 0, 0, 0};  // the first robot wins at x = 0.6, after six steps
+  for (int step = 1; step <= 6; ++step) {
+    batch.step(actions, results);
+    EXPECT_EQ(steps, (std::vector<std::int64_t>{step, step}));
+    EXPECT_EQ(gold_found, (std::vector<std::uint8_t>{step == 6, 0}));
+  }
+  batch.step(actions, results);  // begins the next episode of the first
+  EXPECT_EQ(steps, (std::vector<std::int64_t>{0, 7}));
+  EXPECT_EQ(gold_found, (std::vector<std::uint8_t>{0, 0}));
+  steps.resize(1);
+  results.steps = steps;
+  EXPECT_THROW(batch.step(actions, results), std::invalid_argument);
+}
+
 TEST(EnvironmentBatch, GivesTheSameBatchForAnyNumberOfThreads) {
   std::vector<float> of_one_thread;
   for (const int threads : {1, 2, 5}) {
