@@ -86,8 +86,8 @@ std::unique_ptr<StartedProgram> startThatWaits(const fs::path& folder, const fs:
   auto mpirun = std::make_unique<StartedProgram>(
       ROBOSIM_MPIRUN,
       std::vector<std::string>{"-n", "2", "-x", "ROBOSIM_TEST_WAITS=1", "/bin/sh", "-c",
-                               "echo $$ > " + quoted(folder / "pid") + "$OMPI_COMM_WORLD_RANK; exec '" ROBOSIM_PROGRAM
-                               "' " + benchThatWaits(report)});
+                               "echo $$ > " + quoted(folder / "pid") +
+                                   "$OMPI_COMM_WORLD_RANK; exec '" ROBOSIM_PROGRAM "' " + benchThatWaits(report)});
   const auto journal = report / "journal.jsonl";
   mpirun->waitForFile(journal);
   while (mpirun->isRunning() && runsIn(journal) < 1) std::this_thread::yield();

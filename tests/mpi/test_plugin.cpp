@@ -58,10 +58,11 @@ ROBOSIM_PLUGIN(registry) {
       {"failing_at_the_end", "Throws an exception in step 5 of the last robot.", {}, {}, [](const auto&, const auto&) {
          return std::make_unique<FailingAtTheEnd>();
        }});
-  registry.controllers.add({"waiting_walk", "Walks at random, and waits for a signal if asked to.",
-                            robosim::controllers().typeOf("random_walk").needs, {}, [](const auto& setup, const auto&) {
-                              return std::make_unique<WaitingWalk>(setup);
-                            }});
+  registry.controllers.add({"waiting_walk",
+                            "Walks at random, and waits for a signal if asked to.",
+                            robosim::controllers().typeOf("random_walk").needs,
+                            {},
+                            [](const auto& setup, const auto&) { return std::make_unique<WaitingWalk>(setup); }});
   registry.sensors.push_back({"failing_sensor", "Measures nothing, and throws an exception in step 5.", false,
                               [](robosim::XmlReader&, const robosim::Mount&) -> std::unique_ptr<robosim::Sensor> {
                                 return std::make_unique<FailingSensor>();

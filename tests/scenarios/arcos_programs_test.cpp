@@ -180,8 +180,8 @@ TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
 TEST(ArcosPrograms, GetRobotsOfTheirOwnInARunThatCanBeRepeated) {
   const auto folder = emptyFolder();
   const std::string recording = (folder / "run.rawlog").string();
-  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "0", "--listen", "127.0.0.1:0",
-                         "--record", recording});
+  StartedProgram server(
+      {"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "0", "--listen", "127.0.0.1:0", "--record", recording});
   const std::string address = announcedAfter("up to 3 robots, one for each ARCOS program on ", server);
   const auto start = [&](const std::string& name) {
     auto robot = std::make_unique<StartedProgram>(std::vector<std::string>{

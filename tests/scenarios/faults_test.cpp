@@ -397,8 +397,7 @@ TEST(Faults, NamesWithInvalidUtf8AreReportedBeforeServing) {
 }
 
 TEST(Realtime, KeepsTheLastCommandOfALateRobotAndCountsLateCommands) {
-  Serving serving(
-      {"--wait-for-robots", "--json", "--pace", "realtime", "--speed", "20", "--time", "60"});
+  Serving serving({"--wait-for-robots", "--json", "--pace", "realtime", "--speed", "20", "--time", "60"});
   const auto pioneer = startRobots({"Pioneer1"}, serving.address());
   const auto scout = startRobots({"Scout1"}, serving.address());
   serving.program().waitForError("all robots are connected");

@@ -164,10 +164,9 @@ void expectEndOfStaleRobots(bool tls) {
   first.reset();
   stale.waitForError("reconnecting");  // and attempts to connect are refused
 
-  StartedProgram next(
-      with({"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20",
-            "--step-deadline", "600"},
-           of_server));
+  StartedProgram next(with({"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json",
+                            "--time", "20", "--step-deadline", "600"},
+                           of_server));
   const Ended ended = stale.wait();
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("the robots have joined the run '"), std::string::npos) << ended.err;

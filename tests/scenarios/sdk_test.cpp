@@ -175,9 +175,15 @@ class FlockServer {
 
  private:
   static std::vector<std::string> arguments(const fs::path& project, const fs::path& plugin) {
-    std::vector<std::string> words{
-        "serve", (project / "flock.xml").string(), "--listen", ":0", "--wait-for-robots", "--step-deadline", "600",
-        "--time", "1"};
+    std::vector<std::string> words{"serve",
+                                   (project / "flock.xml").string(),
+                                   "--listen",
+                                   ":0",
+                                   "--wait-for-robots",
+                                   "--step-deadline",
+                                   "600",
+                                   "--time",
+                                   "1"};
     if (!plugin.empty()) words.insert(words.end(), {"--plugin", plugin.string()});
     return words;
   }
