@@ -98,8 +98,6 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers, const Order& orde
   per_m_ = 1 / cell_m_;
   columns_ = cellsIn(x.extent(), cell_m_);
   rows_ = cellsIn(y.extent(), cell_m_);
-  last_column_ = columns_ - 1;
-  last_row_ = rows_ - 1;
 }
 
 void CenterIndex::buildOne(std::size_t solid) {

@@ -123,7 +123,7 @@ class CenterIndex {
     const DoublePair low{area.x_min - reach_max_m_, area.y_min - reach_max_m_};
     const DoublePair high{area.x_max + reach_max_m_, area.y_max + reach_max_m_};
     const DoublePair origin{area_.x_min, area_.y_min};
-    const DoublePair last{last_column_, last_row_};
+    const DoublePair last{columns_ - 1.0, rows_ - 1.0};
     const DoublePair zero{0, 0};
     const DoublePair first_cell = min(last, max((low - origin) * per_m_, zero));
     const DoublePair last_cell = min(last, max((high - origin) * per_m_, zero));
@@ -155,7 +155,6 @@ class CenterIndex {
   Bounds2D area_;
   double cell_m_ = 1, per_m_ = 1;
   int columns_ = 1, rows_ = 1;
-  double last_column_ = 0, last_row_ = 0;
   double reach_max_m_ = 0;
   Bounds2D centers_;                  ///< bounds of all centres
   std::vector<std::uint32_t> begin_;  ///< first entry per cell, and the end

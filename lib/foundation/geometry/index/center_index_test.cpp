@@ -81,6 +81,18 @@ TEST(CenterIndex, BuiltOfSomeSolidsFindsOnlyThoseUntilTheNextBuild) {
   EXPECT_EQ(near(index, {-9, 9, -9, 9}), (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
+TEST(CenterIndex, BuiltOfOneOfManySolidsFindsItAlone) {
+  constexpr std::uint32_t kCount = 100;
+  CenterIndex index(kCount);
+  for (std::uint32_t i = 0; i < kCount; ++i) index.set(i, {Circle{{3.0 * (i % 10), 3.0 * (i / 10)}, 0.5}, {0, 1}});
+  index.build();
+  index.build(ParallelExecutor(1), std::vector<std::uint32_t>{55});
+  EXPECT_EQ(near(index, {-999, 999, -999, 999}), (std::vector<std::uint32_t>{55}));
+  EXPECT_EQ(near(index, {14, 14.6, 14, 14.6}), (std::vector<std::uint32_t>{55}));
+  index.build();
+  EXPECT_EQ(near(index, {0, 1, 0, 1}), (std::vector<std::uint32_t>{0}));
+}
+
 TEST(CenterIndex, BuiltOfSomeSolidsIsTheSameForAnyNumberOfThreads) {
   constexpr std::size_t kCount = 30'000;
   Rng rng(1);
