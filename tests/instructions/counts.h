@@ -23,9 +23,9 @@ constexpr double kGrowthAllowed = 0.1;
 /// one of the two; then a line on how to fix it. Empty if there is no difference.
 std::vector<std::string> listGrowth(const InstructionCounts& now, const InstructionCounts& kept);
 
-/// Compares the loads with errors of sensors with those without: a line for each that exceeds its limit, which is 2.5
-/// times for "…, Gaussian noise" and 5 times for "…, all errors" and what follows it. Such a load without a load "…" is
-/// a fault, too.
+/// Compares the loads with errors of sensors with what those without took when the limits were set (November 2026): a
+/// line for each that exceeds its limit, which is 2.5 times for "…, Gaussian noise" and 5 times for "…, all errors" and
+/// what follows it. Such a load of an unknown "…" is a fault, too.
 std::vector<std::string> listCostlyErrors(const InstructionCounts& now);
 
 /// A table row for each load of `now`: its count, and the difference from `kept`.

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cstring>
 
+#include "base/quads.h"
 #include "base/vector_width.h"
-#include "geometry/index/quads.h"
 
 namespace robosim {
 namespace {

@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "base/quads.h"
 #include "geometry/index/grid_item.h"
-#include "geometry/index/quads.h"
 
 namespace robosim {
 

@@ -7,8 +7,8 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include "base/quads.h"
 #include "geometry/index/grid_item.h"
-#include "geometry/index/quads.h"
 
 /// Conservative culling in single precision: tests that select candidate solids without false negatives.
 namespace robosim {
