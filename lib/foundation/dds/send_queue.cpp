@@ -28,6 +28,8 @@ std::size_t SendQueue::push(const std::shared_ptr<Lane>& lane, Message message) 
 
 std::optional<SendQueue::Next> SendQueue::pop(std::chrono::steady_clock::time_point until) {
   std::unique_lock lock(mutex_);
+  sending_.reset();
+  was_sent_.notify_all();
   const auto isReady = [this] { return is_closed_ || !order_.empty(); };
   for (;;) {
     if (!has_message_.wait_until(lock, until, isReady) || is_closed_) return std::nullopt;
@@ -37,8 +39,16 @@ std::optional<SendQueue::Next> SendQueue::pop(std::chrono::steady_clock::time_po
     Next next{lane, std::move(lane->waiting_.front())};
     lane->waiting_.pop_front();
     bytes_ -= next.message.size();
+    sending_ = lane;
     return next;
   }
+}
+
+bool SendQueue::awaitSent(const Lane& lane, std::chrono::steady_clock::time_point until) {
+  std::unique_lock lock(mutex_);
+  const auto is_sent = [&] { return lane.waiting_.empty() && sending_.get() != &lane; };
+  was_sent_.wait_until(lock, until, [&] { return is_closed_ || is_sent(); });
+  return is_sent();
 }
 
 void SendQueue::close() {
@@ -47,6 +57,7 @@ void SendQueue::close() {
     is_closed_ = true;
   }
   has_message_.notify_all();
+  was_sent_.notify_all();
 }
 
 bool SendQueue::isClosed() const {

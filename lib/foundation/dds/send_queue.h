@@ -35,15 +35,19 @@ class SendQueue {
 
   /// @return number of messages that were dropped for it: of the lane's oldest ones, or itself
   std::size_t push(const std::shared_ptr<Lane>& lane, Message message);
-  /// Waits for a message. nullopt: there was none until then, or the queue is closed
+  /// Waits for a message. The one before it counts as sent. nullopt: there was none until then, or the queue is closed
   std::optional<Next> pop(std::chrono::steady_clock::time_point until);
+  /// Waits until all messages of a writer are sent. @return whether they are; false if not until then, or if the queue
+  /// is closed before
+  bool awaitSent(const Lane& lane, std::chrono::steady_clock::time_point until);
   /// From now on pop() returns nullopt.
   void close();
   bool isClosed() const;
 
  private:
   mutable std::mutex mutex_;
-  std::condition_variable has_message_;
+  std::condition_variable has_message_, was_sent_;
+  std::shared_ptr<Lane> sending_;            ///< of the message that pop() returned last; null after it was sent
   std::deque<std::shared_ptr<Lane>> order_;  ///< an entry for each message; more after one was dropped
   std::size_t bytes_ = 0;
   bool is_closed_ = false;

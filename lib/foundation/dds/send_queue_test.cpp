@@ -59,6 +59,22 @@ TEST(SendQueue, PassesAMessageThatIsLargerThanTheBound) {
   EXPECT_EQ(popAll(queue), "1");
 }
 
+TEST(SendQueue, KnowsWhenTheMessagesOfAWriterAreSent) {
+  SendQueue queue;
+  const auto a = std::make_shared<Lane>(5), b = std::make_shared<Lane>(5);
+  EXPECT_TRUE(queue.awaitSent(*a, {}));
+  queue.push(a, message('1'));
+  queue.push(b, message('2'));
+  EXPECT_FALSE(queue.awaitSent(*a, {})) << "it waits";
+  queue.pop({});
+  EXPECT_FALSE(queue.awaitSent(*a, {})) << "it is being sent";
+  queue.pop({});
+  EXPECT_TRUE(queue.awaitSent(*a, {}));
+  EXPECT_FALSE(queue.awaitSent(*b, {}));
+  queue.close();
+  EXPECT_FALSE(queue.awaitSent(*b, std::chrono::steady_clock::time_point::max())) << "nothing is sent any more";
+}
+
 TEST(SendQueue, ReturnsNothingOnceItIsClosed) {
   SendQueue queue;
   queue.push(std::make_shared<Lane>(1), message('1'));

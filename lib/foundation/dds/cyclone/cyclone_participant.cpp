@@ -148,10 +148,16 @@ class Sender {
   void push(const std::shared_ptr<SentLane>& lane, std::vector<std::uint8_t> message) {
     if (const auto dropped = queue_.push(lane, std::move(message)); dropped > 0) lose(*lane, dropped);
   }
+  /// Waits until the messages of a writer are sent, such as the command by which a robot stops. Once that takes too
+  /// long, the later ones of this process do not wait either.
+  void awaitSent(const SentLane& lane) {
+    if (!is_late_ && !queue_.awaitSent(lane, Clock::now() + kSentMax)) is_late_ = true;
+  }
   std::uint64_t lost() const { return lost_; }
 
  private:
   static constexpr std::chrono::milliseconds kRetryPause{50};
+  static constexpr std::chrono::seconds kSentMax{5};
 
   void run() {
     std::vector<std::shared_ptr<SentLane>> refused;  // lanes
@@ -195,6 +201,7 @@ class Sender {
   std::function<void(const std::string&)> log_;
   SendQueue queue_;
   std::atomic<std::uint64_t> lost_{0};
+  std::atomic<bool> is_late_{false};
   std::thread thread_;  ///< initialised last: it uses the other members
 };
 
@@ -212,6 +219,9 @@ class CycloneWriter final : public Writer {
                             "ROS 2: a writer of " + of.name));
     lane_->writer = writer_->id();
   }
+  ~CycloneWriter() override { sender_.awaitSent(*lane_); }
+  CycloneWriter(const CycloneWriter&) = delete;
+  CycloneWriter& operator=(const CycloneWriter&) = delete;
   int readers() const override { return readers_; }
   std::uint64_t arrivals() const override { return arrivals_; }
   void write(std::vector<std::uint8_t> message) override { sender_.push(lane_, std::move(message)); }
