@@ -24,8 +24,9 @@ def found(program, option):
 
 
 def environment(program):
-    """That of a program whose libraries may be in ../lib, where no system looks."""
-    libraries = [str(Path(program).resolve().parent.parent / "lib"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
+    """That of a program whose libraries may be in ../lib or, of ARGoS, in ../lib/argos3, where no system looks."""
+    below = Path(program).resolve().parent.parent / "lib"
+    libraries = [str(below), str(below / "argos3"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
     return {**os.environ, "LD_LIBRARY_PATH": ":".join(libraries)}
 
 
