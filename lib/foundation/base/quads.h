@@ -19,6 +19,15 @@ using Int32Quad [[gnu::vector_size(16)]] = std::int32_t;
 
 [[gnu::always_inline]] inline FloatQuad inEachLane(float number) { return FloatQuad{number, number, number, number}; }
 
+/// Numbers that lie one after another.
+///@{
+[[gnu::always_inline]] inline void loadFour(const double* from, DoubleQuad& numbers) {
+  std::memcpy(&numbers, from, sizeof numbers);
+}
+[[gnu::always_inline]] inline void storeFour(const DoubleQuad& numbers, double* to) {
+  std::memcpy(to, &numbers, sizeof numbers);
+}
+///@}
 /// Rounds to floats.
 [[gnu::always_inline]] inline void storeFloats(const DoubleQuad& numbers, float* to) {
   const auto floats = __builtin_convertvector(numbers, FloatQuad);

@@ -10,10 +10,6 @@
 namespace robosim {
 namespace {
 
-[[gnu::always_inline]] inline void loadFour(const double* from, DoubleQuad& numbers) {
-  std::memcpy(&numbers, from, sizeof numbers);
-}
-
 /// Echoes of four beams, each a vector.
 template <bool kPans>
 struct FourEchoes {

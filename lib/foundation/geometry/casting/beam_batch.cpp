@@ -5,6 +5,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "base/quads.h"
 #include "base/vector_width.h"
 #include "geometry/casting/beam_kernels.h"
 #include "geometry/casting/beams.h"
@@ -78,16 +79,6 @@ template <typename Kernel, std::size_t kBlock>
   intersectChosen<Kernel::box, kBlock>(beams, blocks, *candidates, arrays, shapes.boxes & ~far);
   return largest(beams.distance, padded);
 }
-
-/// Four numbers of a field.
-///@{
-[[gnu::always_inline]] inline void loadFour(const double* from, DoubleQuad& numbers) {
-  std::memcpy(&numbers, from, sizeof numbers);
-}
-[[gnu::always_inline]] inline void storeFour(const DoubleQuad& numbers, double* to) {
-  std::memcpy(to, &numbers, sizeof numbers);
-}
-///@}
 
 /// Rotates vectors.
 /// @param x,to_x fields, each followed by that of y after `padded` numbers
