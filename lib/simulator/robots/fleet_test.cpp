@@ -87,7 +87,7 @@ TEST(Fleet, KeepsTheWorldsOrderOfRobots) {
   EXPECT_NEAR(b.world_from_start.phi, 7 - 2 * M_PI, 1e-12);
   EXPECT_EQ(b.body().world_from_body, b.world_from_start);
   EXPECT_EQ(b.body().color, (std::array<float, 3>{1, 0, 0}));
-  EXPECT_EQ(b.controller, "wander");
+  EXPECT_EQ(*b.controller, "wander");
   EXPECT_EQ(fleet.robots[1].info.neighbour, "B");
   EXPECT_EQ(*fleet.robots[1].controller, "");
 }
