@@ -22,9 +22,13 @@ class ParallelExecutor {
   /// Calls work(begin, end) for pieces of [0, n) of at most `chunk` elements, and returns when all are done.
   template <typename Work>
   void forChunks(std::size_t n, std::size_t chunk, const Work& work) const {
+    if (n <= chunk) {  // in a small world the rest would cost more than the work
+      if (n > 0) work(0, n);
+      return;
+    }
     const auto do_chunk = [&](std::size_t i) { work(i * chunk, std::min(n, (i + 1) * chunk)); };
     const std::size_t chunks = (n + chunk - 1) / chunk;
-    if (threads_ == 1 || chunks <= 1) {
+    if (threads_ == 1) {
       for (std::size_t i = 0; i < chunks; ++i) do_chunk(i);
     } else {
       distribute(chunks, std::cref(do_chunk));  // by reference: a copied closure could allocate memory in each step

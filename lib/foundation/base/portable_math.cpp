@@ -167,7 +167,8 @@ SinCos sincos(double angle_rad) {
 
 void sincos(std::span<const double> angles_rad, double* sines, double* cosines) {
   const std::size_t count = angles_rad.size();
-  if (withVectors<sincosOfReduced>(angles_rad.data(), count, sines, cosines)) return;
+  constexpr std::size_t kFew = 2;  // without vectors they take less time
+  if (count > kFew && withVectors<sincosOfReduced>(angles_rad.data(), count, sines, cosines)) return;
   for (std::size_t i = 0; i < count; ++i) {
     const auto [sin, cos] = sincos(angles_rad[i]);
     sines[i] = sin;

@@ -45,11 +45,6 @@ Bounds2D grownFor(const std::vector<Solid>& solids, const Bounds2D& area, double
   return longer_m <= kMaxCells * cell_m ? grown : area;
 }
 
-GridIndex gridFor(const std::vector<Solid>& stationary, const Bounds2D& area) {
-  const double cell_m = cellFor(area, stationary.size());
-  return {grownFor(stationary, area, cell_m), cell_m};
-}
-
 bool intersect(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
@@ -122,13 +117,22 @@ void visitOutwards(const GridIndex& grid, const TPoint2D& center, const Reach& r
 
 }  // namespace
 
+std::shared_ptr<const GridIndex> indexStationary(const std::vector<Solid>& solids, const Bounds2D& area) {
+  const double cell_m = cellFor(area, solids.size());
+  const auto grid = std::make_shared<GridIndex>(grownFor(solids, area, cell_m), cell_m);
+  grid->build(solids);
+  return grid;
+}
+
 Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area)
-    : stationary_count_(stationary.size()), moving_count_(moving_count) {
-  GridIndex grid = gridFor(stationary, area);
-  grid.build(stationary);
-  CenterIndex moving(moving_count, grid.middle());
-  index_ = std::make_unique<SceneIndex>(
-      SceneIndex{std::move(grid), std::move(moving), std::vector<NeighbourList>(moving_count)});
+    : Scene(indexStationary(stationary, area), moving_count) {}
+
+Scene::Scene(std::shared_ptr<const GridIndex> stationary, std::size_t moving_count)
+    : stationary_count_(stationary->items().size()), moving_count_(moving_count) {
+  const GridIndex& grid = *stationary;
+  index_ = std::make_unique<SceneIndex>(SceneIndex{std::move(stationary), grid,
+                                                   CenterIndex(moving_count, grid.middle()),
+                                                   std::vector<NeighbourList>(moving_count)});
   freeze();
 }
 
@@ -136,6 +140,7 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
+const std::shared_ptr<const GridIndex>& Scene::stationary() const { return index_->shared_stationary; }
 Solid Scene::solid(BodyId body) const { return index_->item(body).solid(); }
 void Scene::place(std::size_t i, const Solid& solid) { index_->moving.set(i, solid); }
 void Scene::remove(std::size_t i) { index_->moving.remove(i); }

@@ -25,7 +25,12 @@ struct Hit {
   explicit operator bool() const { return body != kNoBody; }
 };
 
+class GridIndex;    // internal: index/grid_index.h
 struct SceneIndex;  // internal: scene_index.h
+
+/// Indexes stationary solids, for scenes that share them. The index never changes, and may be used by several threads.
+/// @param area region that the index covers efficiently; solids beyond it are found too
+std::shared_ptr<const GridIndex> indexStationary(const std::vector<Solid>& solids, const Bounds2D& area);
 
 /// A solid of either shape in one form.
 struct FoundSolid {
@@ -44,12 +49,16 @@ struct FoundSolid {
 /// moving solid and near the query, its list of neighbours saves the search for stationary solids.
 class Scene {
  public:
-  /// @param area region that the index covers efficiently; solids beyond it are found too
+  /// @param area as of indexStationary()
   Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area);
+  /// A scene of stationary solids that other scenes may have as well, at the same time and in other threads.
+  Scene(std::shared_ptr<const GridIndex> stationary, std::size_t moving_count);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
+  /// The index of the stationary solids, for another scene.
+  const std::shared_ptr<const GridIndex>& stationary() const;
   std::size_t stationaryCount() const { return stationary_count_; }
   std::size_t movingCount() const { return moving_count_; }
   BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationary_count_ + i)); }

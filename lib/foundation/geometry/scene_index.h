@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "geometry/index/center_index.h"
@@ -9,7 +10,8 @@ namespace robosim {
 
 /// The solids of a scene, indexed.
 struct SceneIndex {
-  GridIndex stationary;
+  std::shared_ptr<const GridIndex> shared_stationary;
+  const GridIndex& stationary;  ///< the shared one
   CenterIndex moving;
   std::vector<NeighbourList> neighbours;  ///< by moving solid
 

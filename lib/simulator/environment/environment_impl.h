@@ -315,17 +315,28 @@ struct Environment::Impl {
 
   void sense(RobotRange range, SensorGroup which) {
     const bool is_host = which == SensorGroup::in_host_process;
-    std::optional<Snapshot> taken;  // only if a sensor needs it, because it has many parts
+    const auto slots = is_host ? &RobotGroup::host_slots : &RobotGroup::slots;
+    if (is_host ? robot_groups.have_host_slots : robot_groups.have_slots) {
+      const Snapshot now = snapshot();
+      forPresent(range, which, [&](const RobotGroup& group, std::span<const std::uint32_t> robots) {
+        for (const auto slot : group.*slots) group.model->sensors[slot]->sense(now, robots, slot, state.readings);
+      });
+    } else if (!is_host) {  // the neighbours are also those of the next step's paths
+      forPresent(range, which, [](const RobotGroup&, std::span<const std::uint32_t>) {});
+    }
+  }
+  /// Calls use(group, robots) for the robots of a range that are present, in pieces, after updating their neighbours.
+  /// @param which leaves out robots without sensors in the host's process
+  template <typename Use>
+  void forPresent(RobotRange range, SensorGroup which, const Use& use) {
     for (const RobotGroup& group : robot_groups.groups) {
-      const auto& slots = is_host ? group.host_slots : group.slots;
-      if (is_host && slots.empty()) continue;
-      if (!slots.empty() && !taken) taken.emplace(snapshot());
+      if (which == SensorGroup::in_host_process && group.host_slots.empty()) continue;
       const auto of_group = group.within(range);
       workers.forChunks(of_group.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> kept;
         const auto robots = presentOf(of_group.subspan(begin, end - begin), kept);
         for (const auto i : robots) scene.updateNeighbours(i, group.reach_m);
-        for (const auto slot : slots) group.model->sensors[slot]->sense(*taken, robots, slot, state.readings);
+        use(group, robots);
       });
     }
   }
@@ -437,11 +448,11 @@ struct Environment::Impl {
   }
 
   void noteOutcome() {
-    if (!state.found && !state.activity.empty()) {
+    if (!state.found) {
       static_assert(sizeof(Activity) == 1);
-      const Activity* const begin = state.activity.data();
-      const void* const found = std::memchr(begin, static_cast<int>(Activity::found), state.activity.size());
-      if (found) state.found = {static_cast<std::size_t>(static_cast<const Activity*>(found) - begin), state.time.step};
+      const std::span<const Activity> activity = state.activity;
+      const auto found = findByte(std::as_bytes(activity), std::byte{static_cast<std::uint8_t>(Activity::found)});
+      if (found < activity.size()) state.found = {found, state.time.step};
     }
     if (!state.all_halted_step && state.haveAllHalted()) state.all_halted_step = state.time.step;
   }
@@ -466,10 +477,11 @@ struct Environment::Impl {
   }
 
   void decideWinner() {
-    const auto winner = refereeNow().decide(state.win_requests, [this](std::size_t robot) {
+    const auto disc_of = [this](std::size_t robot) {
       const auto& pose = state.world_from_robot[robot];
       return Circle{{pose.x, pose.y}, fleet().robots[robot].info.radius_m};
-    });
+    };
+    const auto winner = refereeNow().decide(state.win_requests, disc_of);
     if (!winner) {
       forFlags(state.win_requests, [&](std::size_t i) {
         if (share.kept.contains(i)) state.readings[i].is_too_far = true;

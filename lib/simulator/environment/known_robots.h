@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -54,21 +55,31 @@ class KnownRobots {
   std::vector<std::uint32_t> some_;
 };
 
+/// Index of the first byte of a value; the number of bytes if none has it.
+inline std::size_t findByte(std::span<const std::byte> bytes, std::byte value) {
+  constexpr std::size_t kFew = 8;  // for which a call costs more than it saves
+  if (bytes.size() > kFew) {
+    const void* const found = std::memchr(bytes.data(), std::to_integer<int>(value), bytes.size());
+    return found ? static_cast<std::size_t>(static_cast<const std::byte*>(found) - bytes.data()) : bytes.size();
+  }
+  std::size_t i = 0;
+  while (i < bytes.size() && bytes[i] != value) ++i;
+  return i;
+}
+
 /// Calls visit(i) for each flag that is 1, of flags that are 0 or 1 and mostly 0.
 template <typename Visit>
 void forFlags(std::span<const std::uint8_t> flags, const Visit& visit) {
-  const std::uint8_t* const begin = flags.data();
-  const std::uint8_t* const end = begin + flags.size();
-  for (const std::uint8_t* at = begin; at != end; ++at) {
-    at = static_cast<const std::uint8_t*>(std::memchr(at, 1, static_cast<std::size_t>(end - at)));
-    if (!at) return;
-    visit(static_cast<std::size_t>(at - begin));
+  for (std::size_t i = 0;; ++i) {
+    i += findByte(std::as_bytes(flags.subspan(i)), std::byte{1});
+    if (i == flags.size()) return;
+    visit(i);
   }
 }
 
 /// Whether any flag is 1.
 inline bool anyFlag(std::span<const std::uint8_t> flags) {
-  return !flags.empty() && std::memchr(flags.data(), 1, flags.size()) != nullptr;
+  return findByte(std::as_bytes(flags), std::byte{1}) < flags.size();
 }
 
 }  // namespace robosim

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "geometry/scene.h"
 #include "robots/fleet.h"
 #include "world/robot_additions.h"
 #include "world/world.h"
@@ -16,12 +17,15 @@ struct Model {
   Model(World the_world, Fleet the_fleet, std::uint64_t the_seed = 1, double the_period_s = 0.1)
       : shared_world(std::make_shared<const World>(std::move(the_world))),
         world(*shared_world),
+        stationary(indexStationary(stationarySolids(world.objects, world.maps), world.bounds)),
         fleet(std::move(the_fleet)),
         seed(the_seed),
         period_s(the_period_s) {}
 
   std::shared_ptr<const World> shared_world;
   const World& world;  ///< the shared one
+  /// Of the world's objects and maps: all runs in which no intervention has changed an object share it.
+  std::shared_ptr<const GridIndex> stationary;
   Fleet fleet;
   RobotAdditions additions = {};  ///< the last robots of the fleet
   std::uint64_t seed = 1;

@@ -31,6 +31,7 @@ MoveAuthorisation::MoveAuthorisation(const std::vector<Mover>& movers, const Bou
 void MoveAuthorisation::begin(const ParallelExecutor& workers, const KnownRobots& known, std::span<const Path> paths,
                               std::span<const HeldObject> held) {
   held_.assign(held.begin(), held.end());
+  if (movers_.size() == 1) return;  // the rest is about other robots; stays_ remains 0
   extent_max_m_ = radius_max_m_;
   for (const auto& object : held_) extent_max_m_ = std::max(extent_max_m_, object.extent());
   length_max_m_ = known.inOrder([&](const auto& order) {
@@ -62,7 +63,7 @@ void MoveAuthorisation::clip(const Scene& scene, const ParallelExecutor& workers
 // order-independent.
 void MoveAuthorisation::judge(const Scene& scene, const ParallelExecutor& workers, RobotRange range,
                               std::span<const Path> paths) {
-  if (movers_.size() == 1) return;  // begin() has noted that nothing makes it stay
+  if (movers_.size() == 1) return;  // nothing makes it stay
   workers.forEach(range.end - range.begin, kPathChunk, [&](std::size_t k) {
     const std::size_t i = range.begin + k;
     stays_[i] = collidesWithAnother(scene, i, paths) ? 1 : 0;

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "base/portable_math.h"
-
 namespace robosim {
 
 PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& objects)
     : model_(&model),
-      scene_({}, 0, model.world.bounds),
+      scene_(model.stationary, 0),
       frames_(model.fleet.robots.size()),
       floor_pictures_(floorPicturesOf(model.world.maps)),
       georeference_(georeferenceOf(model.world)) {
@@ -17,7 +15,7 @@ PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& o
   robot_bodies.reserve(model.fleet.robots.size());
   for (const auto& robot : model.fleet.robots) {
     robot_bodies.push_back(compact(robot));
-    if (!robot_bodies.back().disc_radius_m) beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
+    if (!std::holds_alternative<Cylinder>(robot_bodies.back().shape)) beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
   }
   robot_bodies_ = RepeatedValues(robot_bodies);
   setObjects(objects);
@@ -25,8 +23,7 @@ PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& o
 
 PlacedBodies::CompactBody PlacedBodies::compact(const FleetRobot& robot) {
   const Body body = robot.body();
-  const auto* const cylinder = std::get_if<Cylinder>(&body.shape);
-  return {cylinder ? std::optional(cylinder->radius_m) : std::nullopt, body.heights()};
+  return {body.shape, body.heights()};
 }
 
 void PlacedBodies::setObjects(const std::vector<WorldObject>& objects) {
@@ -46,7 +43,10 @@ void PlacedBodies::listObjects(const std::vector<WorldObject>& objects) {
     if (!object.isStationary()) movable_.push_back(MovableBody::from(object));
   }
   const std::size_t robots = model_->fleet.robots.size();
-  scene_ = Scene(stationarySolids(objects, model_->world.maps), robots + movable_.size(), model_->world.bounds);
+  const bool are_of_world = &objects == &model_->world.objects;
+  scene_ = Scene(are_of_world ? model_->stationary
+                              : indexStationary(stationarySolids(objects, model_->world.maps), model_->world.bounds),
+                 robots + movable_.size());
   body_of_object_.clear();
   std::uint32_t stationary = 0;
   std::size_t moving = robots;
@@ -130,8 +130,10 @@ void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motio
         continue;
       }
       const auto& pose = state.world_from_robot[i];
-      if (kept.contains(i)) frames_[i] = PlanarTransform(pose, robot_bodies_[i].heights.z_min_m, {sin[k], cos[k]});
-      scene_.place(i, solidOf(i, pose));
+      const CompactBody& body = robot_bodies_[i];
+      const portable::SinCos heading{sin[k], cos[k]};
+      if (kept.contains(i)) frames_[i] = PlanarTransform(pose, body.heights.z_min_m, heading);
+      scene_.place(i, body.solidAt(pose, heading));
     }
   });
   if (known.areAll()) {
@@ -155,14 +157,12 @@ void PlacedBodies::place(const State& state, std::span<const ObjectMotion> motio
   }
 }
 
-Solid PlacedBodies::solidOf(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) const {
-  const CompactBody& compact = robot_bodies_[robot];
-  if (compact.disc_radius_m) {
-    return {Circle{{world_from_robot.x, world_from_robot.y}, *compact.disc_radius_m}, compact.heights};
-  }
-  Body body = model_->fleet.robots[robot].body();
-  body.world_from_body = world_from_robot;
-  return body.solid();
+Solid PlacedBodies::CompactBody::solidAt(const mrpt::math::TPose2D& world_from_robot,
+                                         const portable::SinCos& heading) const {
+  const mrpt::math::TPoint2D center{world_from_robot.x, world_from_robot.y};
+  if (const auto* const cylinder = std::get_if<Cylinder>(&shape)) return {Circle{center, cylinder->radius_m}, heights};
+  const Cube& cube = std::get<Cube>(shape);
+  return {OrientedBox{center, {heading.cos, heading.sin}, cube.length_m / 2, cube.width_m / 2}, heights};
 }
 
 Solid PlacedBodies::discOf(std::size_t robot, const mrpt::math::TPoint2D& center) const {

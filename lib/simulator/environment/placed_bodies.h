@@ -2,9 +2,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "base/parallel_executor.h"
+#include "base/portable_math.h"
 #include "dynamics/movable_body.h"
 #include "environment/body_looks.h"
 #include "environment/known_robots.h"
@@ -53,8 +55,11 @@ class PlacedBodies {
  private:
   /// What placing needs of a robot's body: to look it up in the fleet would cost a cache miss or more.
   struct CompactBody {
-    std::optional<double> disc_radius_m;  ///< nullopt for a body that is no disc
+    std::variant<Cylinder, Cube> shape;
     HeightSpan heights;
+
+    /// The body at a pose. @param heading sine and cosine of world_from_robot.phi
+    Solid solidAt(const mrpt::math::TPose2D& world_from_robot, const portable::SinCos& heading) const;
     bool operator==(const CompactBody&) const = default;
   };
   static CompactBody compact(const FleetRobot& robot);
@@ -66,7 +71,6 @@ class PlacedBodies {
   void addFeatures(const Body& body, BodyId id);
   /// Where the moving ones are.
   void placeFeatured(const State& state, std::span<const ObjectMotion> motions, const KnownRobots& known);
-  Solid solidOf(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) const;
 
   const Model* model_;
   Scene scene_;

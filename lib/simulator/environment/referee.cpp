@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "environment/known_robots.h"
-
 namespace robosim {
 
 std::vector<Outline> findGold(const std::vector<WorldObject>& objects) {
@@ -22,19 +20,6 @@ double Referee::distanceToGold(const Circle& disc) const {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const auto& gold : gold_) nearest_m = std::min(nearest_m, distance(gold, disc));
   return nearest_m;
-}
-
-std::optional<std::size_t> Referee::decide(std::span<const std::uint8_t> requests,
-                                           const std::function<Circle(std::size_t robot)>& disc_of) const {
-  std::optional<std::size_t> winner;
-  double winner_m = win_distance_m_;
-  forFlags(requests, [&](std::size_t i) {
-    const double away_m = distanceToGold(disc_of(i));
-    if (away_m > winner_m || (away_m == winner_m && winner)) return;
-    winner = i;
-    winner_m = away_m;
-  });
-  return winner;
 }
 
 }  // namespace robosim

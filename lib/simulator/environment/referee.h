@@ -1,10 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "environment/known_robots.h"
 #include "geometry/shapes/solid.h"
 #include "world/world.h"
 
@@ -21,10 +21,21 @@ class Referee {
   Referee(const std::vector<WorldObject>& objects, double win_distance_m);
 
   /// @param requests by robot, 1 for a request of CheckWin
-  /// @param disc_of the disc of a robot at its current pose
+  /// @param disc_of returns the disc of a robot, by its index, at its current pose
   /// @return the winner; nullopt if there is none
-  std::optional<std::size_t> decide(std::span<const std::uint8_t> requests,
-                                    const std::function<Circle(std::size_t robot)>& disc_of) const;
+  template <typename DiscOf>
+  std::optional<std::size_t> decide(std::span<const std::uint8_t> requests, const DiscOf& disc_of) const {
+    std::optional<std::size_t> winner;
+    if (gold_.empty()) return winner;
+    double winner_m = win_distance_m_;
+    forFlags(requests, [&](std::size_t i) {
+      const double away_m = distanceToGold(disc_of(i));
+      if (away_m > winner_m || (away_m == winner_m && winner)) return;
+      winner = i;
+      winner_m = away_m;
+    });
+    return winner;
+  }
 
  private:
   double distanceToGold(const Circle& disc) const;  ///< [m]; infinite when there is no gold

@@ -34,6 +34,7 @@ std::vector<std::size_t> sensedSlots(const RobotModel& model, std::size_t robot,
 double reachOf(const Sensor& sensor) { return sensor.usesNeighbours() ? beamReach(sensor.info()) : 0; }
 
 std::span<const std::uint32_t> RobotGroup::within(RobotRange range) const {
+  if (range.begin <= robots.front() && robots.back() < range.end) return robots;
   const auto begin = std::lower_bound(robots.begin(), robots.end(), range.begin);
   return {begin, std::lower_bound(begin, robots.end(), range.end)};
 }
@@ -45,7 +46,11 @@ RobotGroups::RobotGroups(const Fleet& fleet, double period_s, const IsSensed& is
     const RobotModel* model = fleet.robots[i].model.get();
     const auto slots = sensedSlots(*model, i, is_sensed);
     const auto [found, is_new] = group_of.emplace(std::pair(model, slots), static_cast<std::uint32_t>(groups.size()));
-    if (is_new) groups.push_back(makeGroup(*model, slots, period_s));
+    if (is_new) {
+      groups.push_back(makeGroup(*model, slots, period_s));
+      have_slots |= !groups.back().slots.empty();
+      have_host_slots |= !groups.back().host_slots.empty();
+    }
     groups[found->second].robots.push_back(i);
     number_of.push_back(found->second);
   }

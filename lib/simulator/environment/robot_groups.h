@@ -34,6 +34,7 @@ struct RobotGroups {
   const RobotGroup& groupOf(std::size_t robot) const { return groups[number_of[robot]]; }
 
   std::vector<RobotGroup> groups;
+  bool have_slots = false, have_host_slots = false;  ///< whether any group has such slots
   std::vector<std::uint32_t> number_of;  ///< of the group, by robot
 };
 
