@@ -35,7 +35,7 @@ TEST(KnownRobots, AreAllUnlessLimited) {
 }
 
 TEST(Flags, AreVisitedInOrder) {
-  const std::vector<std::uint8_t> flags{1, 0, 0, 1, 1, 0, 1};
+  const std::vector<std::uint8_t> flags{1, 0, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0};
   std::vector<std::size_t> set;
   forFlags(flags, [&](std::size_t i) { set.push_back(i); });
   EXPECT_EQ(set, (std::vector<std::size_t>{0, 3, 4, 6}));
