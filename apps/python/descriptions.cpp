@@ -83,10 +83,10 @@ void bindRobotInfo(py::module_& module) {
   py::class_<FleetRobot>(module, "RobotInfo", "A robot as placed in a world.")
       .def_property_readonly("name", [](const FleetRobot& robot) { return toPython(robot.info.name); })
       .def_property_readonly(
-          "type", [](const FleetRobot& robot) { return toPython(robot.info.model); },
+          "type", [](const FleetRobot& robot) { return toPython(robot.info.type->model); },
           "Name of its type; '2005' for a robot that its world file describes.")
       .def_property_readonly(
-          "controller", [](const FleetRobot& robot) { return toPython(robot.controller); },
+          "controller", [](const FleetRobot& robot) { return toPython(*robot.controller); },
           "As given in the world, with parameters; empty: the default.")
       .def_property_readonly(
           "start", [](const FleetRobot& robot) { return poseTuple(robot.world_from_start); },
@@ -94,16 +94,18 @@ void bindRobotInfo(py::module_& module) {
       .def_property_readonly(
           "radius_m", [](const FleetRobot& robot) { return robot.info.radius_m; }, "Of its circular footprint.")
       .def_property_readonly("height_m", [](const FleetRobot& robot) { return robot.info.height_m; })
-      .def_property_readonly("speed_max_mps", [](const FleetRobot& robot) { return robot.info.limits.speed_max_mps; })
-      .def_property_readonly("turn_max_radps", [](const FleetRobot& robot) { return robot.info.limits.turn_max_radps; })
+      .def_property_readonly("speed_max_mps",
+                             [](const FleetRobot& robot) { return robot.info.type->limits.speed_max_mps; })
+      .def_property_readonly("turn_max_radps",
+                             [](const FleetRobot& robot) { return robot.info.type->limits.turn_max_radps; })
       .def_property_readonly("lateral_max_mps",
-                             [](const FleetRobot& robot) { return robot.info.limits.lateral_max_mps; })
-      .def_property_readonly("drive_type", [](const FleetRobot& robot) { return nameOf(robot.info.drive.kind); })
+                             [](const FleetRobot& robot) { return robot.info.type->limits.lateral_max_mps; })
+      .def_property_readonly("drive_type", [](const FleetRobot& robot) { return nameOf(robot.info.type->drive.kind); })
       .def_property_readonly(
           "sensors", [](const FleetRobot& robot) { return py::tuple(py::cast(*robot.info.sensors)); },
           "Its sensors, as SensorInfo.")
       .def("__repr__", [](const FleetRobot& robot) {
-        return toPython("<RobotInfo '" + robot.info.name + "', " + robot.info.model + ">");
+        return toPython("<RobotInfo '" + robot.info.name + "', " + robot.info.type->model + ">");
       });
 }
 

@@ -18,10 +18,10 @@ namespace robosim {
 namespace {
 
 void checkNeeds(const FleetRobot& robot) {
-  const ControllerType& type = controllers().typeOf(robot.controller);
+  const ControllerType& type = controllers().typeOf(*robot.controller);
   const std::string who = "robot '" + robot.info.name + "': its controller " + type.name;
   constexpr const char* kCure = "make the robot an agent, or use others=\"still\"";
-  if (needsPictures(robot.controller)) {
+  if (needsPictures(*robot.controller)) {
     throw ConfigError(who + " requires pictures, which learning environments do not take; " + kCure);
   }
   for (const SensorKind kind : missingSensors(type, *robot.info.sensors)) {
@@ -35,7 +35,7 @@ class ControlledRobots : public OtherRobots {
     const auto& robots = environment.fleet().robots;
     std::shared_ptr<const KnownWorld> known_world;  // made for the first robot that needs it
     for (std::size_t i = first; i < robots.size(); ++i) {
-      const std::string& choice = robots[i].controller;
+      const std::string& choice = *robots[i].controller;
       if (choice.empty()) continue;
       checkNeeds(robots[i]);
       ControllerSetup setup{environment.state().seed, static_cast<std::uint32_t>(i),
@@ -88,7 +88,7 @@ class ControlledRobots : public OtherRobots {
 
 void checkOtherRobots(const LoadedWorld& world, std::size_t first) {
   for (std::size_t i = first; i < world.fleet.robots.size(); ++i) {
-    if (!world.fleet.robots[i].controller.empty()) checkNeeds(world.fleet.robots[i]);
+    if (!world.fleet.robots[i].controller->empty()) checkNeeds(world.fleet.robots[i]);
   }
 }
 

@@ -318,14 +318,14 @@ void bindRobot(py::module_& module) {
           "As given in the world; empty for none.")
       .def_property_readonly("radius_m", [](const PythonRobot& of) { return of.toRead().info().radius_m; })
       .def_property_readonly("speed_max_mps",
-                             [](const PythonRobot& of) { return of.toRead().info().limits.speed_max_mps; })
+                             [](const PythonRobot& of) { return of.toRead().info().type->limits.speed_max_mps; })
       .def_property_readonly("turn_max_radps",
-                             [](const PythonRobot& of) { return of.toRead().info().limits.turn_max_radps; })
+                             [](const PythonRobot& of) { return of.toRead().info().type->limits.turn_max_radps; })
       .def_property_readonly(
-          "lateral_max_mps", [](const PythonRobot& of) { return of.toRead().info().limits.lateral_max_mps; },
+          "lateral_max_mps", [](const PythonRobot& of) { return of.toRead().info().type->limits.lateral_max_mps; },
           "Of an omnidirectional drive; 0 for others.")
       .def_property_readonly(
-          "drive_type", [](const PythonRobot& of) { return nameOf(of.toRead().info().drive.kind); },
+          "drive_type", [](const PythonRobot& of) { return nameOf(of.toRead().info().type->drive.kind); },
           "'differential', 'omni', 'car' or 'tracked'.")
       .def_property_readonly(
           "sensors", [](const PythonRobot& of) { return py::tuple(py::cast(*of.toRead().info().sensors)); },

@@ -72,17 +72,17 @@ Simulation::Simulation(std::shared_ptr<const PythonWorld> world, Options options
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (elsewhere_[i]) continue;
     const auto own = options.named.find(robots[i].info.name);
-    if (own != options.named.end()) robots[i].controller = own->second;
-    if (own == options.named.end() && !options_.controller.empty()) robots[i].controller = options_.controller;
-    by_commands_[i] = elsewhere_[i] = robots[i].controller == kNoController ? 1 : 0;
+    if (own != options.named.end()) robots[i].controller.edit() = own->second;
+    if (own == options.named.end() && !options_.controller.empty()) robots[i].controller.edit() = options_.controller;
+    by_commands_[i] = elsewhere_[i] = *robots[i].controller == kNoController ? 1 : 0;
   }
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (elsewhere_[i]) robots[i].controller = "still";  // which requires no sensors, and is not made
-    checkController(controllerOf(robots[i].controller, ""));
+    if (elsewhere_[i]) robots[i].controller.edit() = "still";  // which requires no sensors, and is not made
+    checkController(controllerOf(*robots[i].controller, ""));
   }
   options_.controller_of_added = options_.controller == kNoController ? "" : options_.controller;
   options_.is_added_elsewhere = [has_none = options_.controller == kNoController](const FleetRobot& robot) {
-    return has_none && robot.controller.empty();
+    return has_none && robot.controller->empty();
   };
   options_.controller.clear();
   ErrorList errors;

@@ -148,8 +148,8 @@ struct Additions {
 /// none, and lack what the default requires: another process may drive them, or --controller name one.
 void checkControllersOf(const LoadedWorld& loaded, const std::string& file, const std::string& controller,
                         Checked& checked) {
-  const auto names_none = [](const FleetRobot& robot, std::size_t) { return robot.controller.empty(); };
-  const auto names_one = [](const FleetRobot& robot, std::size_t) { return !robot.controller.empty(); };
+  const auto names_none = [](const FleetRobot& robot, std::size_t) { return robot.controller->empty(); };
+  const auto names_one = [](const FleetRobot& robot, std::size_t) { return !robot.controller->empty(); };
   if (!controller.empty()) return checkControllers(loaded, file, controller, checked.errors);
   checkControllers(loaded, file, "", checked.errors, names_none);
   ErrorList of_default;
@@ -197,7 +197,7 @@ void checkWorld(const std::string& file, World world_in_file, RobotTypes types, 
     for (const auto& sensor : *robot.info.sensors) sensors += (sensors.empty() ? "" : " ") + sensor.label;
     checked.contents.push_back(
         {"  " + robot.info.name,
-         robot.info.model + ", " + (robot.controller.empty() ? "default controller" : robot.controller) + ", " +
+         robot.info.type->model + ", " + (robot.controller->empty() ? "default controller" : *robot.controller) + ", " +
              sensors + "; " + placeText(robot.world_from_start) + startText(world, robot.world_from_start)});
   }
   if (fleet.robots.size() > kMaxListed) {

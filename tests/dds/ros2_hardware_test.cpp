@@ -233,8 +233,8 @@ TEST(Ros2Hardware, LimitsCommandsAndSendsZerosWithoutOdometryAndAtTheEnd) {
   auto hardware = connect(simulated, options);
   hardware->command({.speed_mps = 99, .turn_radps = -99});
   takeStep(simulated, *hardware);
-  EXPECT_EQ(simulated.commandedSpeed(), simulated.info().limits.speed_max_mps);
-  EXPECT_EQ(simulated.commandedTurn(), -simulated.info().limits.turn_max_radps);
+  EXPECT_EQ(simulated.commandedSpeed(), simulated.info().type->limits.speed_max_mps);
+  EXPECT_EQ(simulated.commandedTurn(), -simulated.info().type->limits.turn_max_radps);
   // Without odometry for a second.
   std::jthread silent([&] {
     EXPECT_TRUE(eventually([&] { return simulated.commandedSpeed() == 0; }));

@@ -458,7 +458,10 @@ test('a recording of another program is played: each measurement once', async ()
   robosim('replay', inFolder('whole.rawlog'), '--robot', 'Pioneer1', '--sensor', 'GROUND_TRUTH', '--sensor', 'laser', '--output', inFolder('part.rawlog'));
   const client = connect(await viewing(inFolder('part.rawlog')).url());
   await client.until(() => client.of('/clock').length > 0);
-  client.set('/run/paused', true);
+  const player = new Player(client);
+  player.control(false, 1, SECOND, 'pause');
+  await player.answer('pause');
+  client.topics.clear();  // what was played until then
   client.set('/run/time', 0);
   await client.until(() => client.of('/robots').at(-1)?.time === 0n);
   client.topics.clear();

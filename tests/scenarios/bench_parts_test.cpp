@@ -117,7 +117,7 @@ TEST(StandardWorld, HasOneObjectAndAQuarterOfAWallPerRobot) {
   EXPECT_EQ(made.fleet.robots.size(), 100);
   EXPECT_EQ(made.world.objects.size(), 100 + 25 + 4);
   EXPECT_NEAR(made.world.bounds.x_max - made.world.bounds.x_min, 42, 1e-9) << "16 m² a robot, and walls of a metre";
-  for (const auto& robot : made.fleet.robots) EXPECT_EQ(robot.controller, "wander");
+  for (const auto& robot : made.fleet.robots) EXPECT_EQ(*robot.controller, "wander");
 }
 
 TEST(StandardWorld, WithInfraredRobotsHasOneRobotPerSquareMetre) {

@@ -89,7 +89,7 @@ bool SearchBenchmark::writePage(std::size_t index, const std::filesystem::path& 
   const auto observe = [&](const Environment& environment) {
     if (!page) {
       for (const auto& robot : environment.fleet().robots) {
-        note.controllers.push_back(plan_.strategies[c.strategy].empty() ? robot.controller
+        note.controllers.push_back(plan_.strategies[c.strategy].empty() ? *robot.controller
                                                                         : plan_.strategies[c.strategy]);
       }
       page.emplace(std::vector<RecordingOutput>{{file, RecordingFormat::page}}, note.world.file, environment, note);

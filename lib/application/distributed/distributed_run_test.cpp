@@ -358,7 +358,7 @@ TEST(DistributedRun, ThrowsTheFailureOfASensorAtItsEndIfNoRankNeedsReadingsOfOth
   LoadedWorld world{emptyWorld(20), {}};
   for (int i = 0; i < 512; ++i)
     addDisc(world.world, world.fleet, "r" + std::to_string(i), {i % 32 - 16.0, i / 32 - 8.0, 0});
-  for (FleetRobot& robot : world.fleet.robots) robot.controller = "random_walk";
+  for (FleetRobot& robot : world.fleet.robots) robot.controller.edit() = "random_walk";
   world = withFailingSensor(std::move(world));
   for (const int steps : {5, 6}) {
     int failed = 0;
@@ -413,7 +413,7 @@ TEST(DistributedRun, RefusesWorldsThatDifferBetweenRanks) {
   expect_refused(another_world, [](auto&, auto& options, auto&) { options.environment.seed = 2; });
   const std::string other_controllers = "this process has read a world with other controllers, neighbours or types";
   expect_refused(other_controllers,
-                 [](auto& world, auto&, auto&) { world.fleet.robots[3].controller = "random_walk"; });
+                 [](auto& world, auto&, auto&) { world.fleet.robots[3].controller.edit() = "random_walk"; });
   expect_refused(other_controllers, [](auto& world, auto&, auto&) { world.fleet.robots[3].info.neighbour = "x"; });
   expect_refused(other_controllers, [](auto&, auto& options, auto&) { options.controller = "random_walk"; });
   const std::string other_options = "this process was given other options than rank 0";

@@ -21,7 +21,7 @@ Interaction Interaction::of(const World& world, const Fleet& fleet, double perio
   double sensor_m = 0, radius_max_m = 0, speed_max_mps = 0;
   for (const FleetRobot& robot : fleet.robots) {
     radius_max_m = std::max(radius_max_m, robot.info.radius_m);
-    speed_max_mps = std::max(speed_max_mps, groundSpeedMax(robot.info.drive, robot.info.limits));
+    speed_max_mps = std::max(speed_max_mps, groundSpeedMax(robot.info.type->drive, robot.info.type->limits));
     if (robot.body().heat_celsius != 0) interaction.unlimited_by = "robot '" + robot.info.name + "' is hot";
   }
   std::unordered_set<const RobotModel*> models;

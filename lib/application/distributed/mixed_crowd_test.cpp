@@ -73,7 +73,7 @@ RobotTypes mixedTypes() {
 void addCameraHeads(Fleet& fleet, const std::string& model_name) {
   std::shared_ptr<const RobotModel> model;
   for (auto& robot : fleet.robots) {
-    if (robot.info.model != model_name) continue;
+    if (robot.info.type->model != model_name) continue;
     if (!model) {
       RobotModel with_head = *robot.model;
       CameraHeadLimits limits{-1, 1, -0.5, 0.5, 4, 1, 0.5, 2};

@@ -57,7 +57,7 @@ LoadedWorld crowdedWorld(const Crowd& crowd, std::uint64_t seed) {
     if (!model) model = withSensors(*robot.model, crowd.sensors);
     robot.model = model;
     robot.info.sensors = model->sensor_infos;
-    robot.controller = crowd.controller;
+    robot.controller.edit() = crowd.controller;
   }
   if (crowd.has_gold) addGold(made.world, half_m - 0.5, half_m - 0.5);
   made.world.win_distance_m = 3;
@@ -127,7 +127,7 @@ TEST(NearExchange, GivesItWithRobotsThatDriveThroughTheOtherRanksShare) {
     FleetRobot& robot = made.fleet.robots.back();
     robot.model = withSensors(*robot.model, {"<laser beams='8' field_of_view_deg='360' range_max_m='2'/>"});
     robot.info.sensors = robot.model->sensor_infos;
-    robot.controller = "upwards";
+    robot.controller.edit() = "upwards";
   }
   const std::string alone = resultAlone(made, kSteps);
   const OnRanks near = runOf(made, kSteps, 2, {.balance_steps = 0});
@@ -208,7 +208,7 @@ TEST(NearExchange, SendsAMessageOnceToAllRanks) {
   made.world = emptyWorld(200);
   for (int i = 0; i < 500; ++i) {
     addDisc(made.world, made.fleet, "r" + std::to_string(i), {i % 10 * 4.0 - 20, i / 10 * 4.0 - 100, 0});
-    made.fleet.robots.back().controller = "caller";
+    made.fleet.robots.back().controller.edit() = "caller";
   }
   const OnRanks near = runOf(made, 10, 5, {.balance_steps = 0, .exchange = kNear});
   EXPECT_EQ(near.exchange.find("ranks know the robots near their own: "), 0u) << near.exchange;

@@ -67,8 +67,8 @@ bool haveSameBits(const Command& a, const Command& b) {
                       std::bit_cast<std::uint64_t>(command.turn_radps),
                       std::uint64_t{std::bit_cast<std::uint32_t>(command.laser_pan_rad)},
                       std::bit_cast<std::uint64_t>(command.lateral_mps),
-                      std::bit_cast<std::uint64_t>(command.camera_head.aim.pan_rad),
-                      std::bit_cast<std::uint64_t>(command.camera_head.aim.tilt_rad)};
+                      std::bit_cast<std::uint64_t>(command.camera_head->aim.pan_rad),
+                      std::bit_cast<std::uint64_t>(command.camera_head->aim.tilt_rad)};
   };
   return a == b && numbers(a) == numbers(b);
 }

@@ -21,9 +21,9 @@ std::uint64_t digestOfControllers(const Model& model, const std::string& instead
   Digest digest;
   const std::span<const FleetRobot> robots = model.fleet.robots;
   for (const FleetRobot& robot : robots.first(robots.size() - model.additions.size())) {
-    addText(digest, controllerOf(robot.controller, instead));
+    addText(digest, controllerOf(*robot.controller, instead));
     addText(digest, robot.info.neighbour);
-    addText(digest, robot.info.model);
+    addText(digest, robot.info.type->model);
   }
   return digest.value();
 }

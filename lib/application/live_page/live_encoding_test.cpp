@@ -158,7 +158,7 @@ TEST_F(LiveEncodingTest, CanBeOfTheSameWorldWithMoreRobotsOnly) {
 TEST_F(LiveEncodingTest, NamesEachMessageOnceWithItsReceivers) {
   fleet.robots = {robot("Ann", 1), robot("Bob", 1), robot("Eve", 1)};
   Readings received;
-  received.inbox = {{"Ann", "", "gold!"}};
+  received.inbox.edit() = {{"Ann", "", "gold!"}};
   std::vector<LiveEvent> events;
   addMessages(fleet, {nullptr, &received, &received}, events);
   ASSERT_EQ(events.size(), 1U);

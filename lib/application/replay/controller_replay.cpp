@@ -27,9 +27,9 @@ double biggestDifference(const RobotInfo& robot, const Command& a, const Command
   }
   double biggest = std::max({std::abs(a.speed_mps - b.speed_mps), std::abs(a.turn_radps - b.turn_radps),
                              static_cast<double>(std::abs(a.laser_pan_rad - b.laser_pan_rad))});
-  if (robot.limits.lateral_max_mps > 0) biggest = std::max(biggest, std::abs(a.lateral_mps - b.lateral_mps));
+  if (robot.type->limits.lateral_max_mps > 0) biggest = std::max(biggest, std::abs(a.lateral_mps - b.lateral_mps));
   if (!cameraHeadIn(*robot.sensors)) return biggest;
-  const CameraHeadCommand &head_a = a.camera_head, &head_b = b.camera_head;
+  const CameraHeadCommand &head_a = *a.camera_head, &head_b = *b.camera_head;
   return std::max({biggest, std::abs(head_a.aim.pan_rad - head_b.aim.pan_rad),
                    std::abs(head_a.aim.tilt_rad - head_b.aim.tilt_rad), std::abs(head_a.aim.zoom - head_b.aim.zoom),
                    std::abs(head_a.pan_radps - head_b.pan_radps), std::abs(head_a.tilt_radps - head_b.tilt_radps)});

@@ -53,7 +53,7 @@ void addStatus(const CObservationRawDAQ& daq, RowBuilder& row) {
   row.addInteger("grip", status.command.grip ? 1 : 0);
   row.addInteger("led_color", static_cast<int>(status.command.led_color));
   if (status.has_camera_head) {
-    const auto& [aim, pan_radps, tilt_radps] = status.command.camera_head;
+    const auto& [aim, pan_radps, tilt_radps] = *status.command.camera_head;
     row.add("camera_pan_command_rad", aim.pan_rad);
     row.add("camera_tilt_command_rad", aim.tilt_rad);
     row.add("camera_zoom_command", aim.zoom);

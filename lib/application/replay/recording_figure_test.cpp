@@ -147,7 +147,7 @@ TEST(RecordingFigure, MarksEvents) {
   };
   Readings stalled, message, won;
   stalled.stalled = true;
-  message.inbox = {{"Ann", "Bob", "hello"}};
+  message.inbox.edit() = {{"Ann", "Bob", "hello"}};
   won.winner = "Ann";
   step({1, 1, 0}, {}, {});
   step({1, 3, 0}, stalled, {});

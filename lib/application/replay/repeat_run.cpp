@@ -78,7 +78,7 @@ std::optional<std::string> findDifference(const RecordedRobot& recorded, const R
     return std::string("stalled: recorded ") + (recorded.readings.stalled ? "yes" : "no");
   }
   if (recorded.command && receives_winner && recorded.readings.winner != now.winner) {
-    return "winner: recorded \"" + recorded.readings.winner + "\", now \"" + now.winner + '"';
+    return "winner: recorded \"" + *recorded.readings.winner + "\", now \"" + *now.winner + '"';
   }
   if (recorded.readings.inbox != now.inbox) {
     return "messages: recorded " + std::to_string(recorded.readings.inbox.size()) + ", now " +
@@ -176,7 +176,7 @@ class RunAgain {
                         std::to_string(note.controllers.size()) + "; give the world that it was made with, " +
                         note.world.file);
     }
-    for (std::size_t i = 0; i < robots.size(); ++i) robots[i].controller = note.controllers[i];
+    for (std::size_t i = 0; i < robots.size(); ++i) robots[i].controller.edit() = note.controllers[i];
     return world;
   }
   /// Robots driven by another process are driven by the recorded commands.
@@ -215,7 +215,7 @@ class RunAgain {
     return isAddedElsewhere(note_, run_.environment().fleet().robots[robot]);
   }
   static bool isAddedElsewhere(const RunNote& note, const FleetRobot& robot) {
-    const bool has_controller = !note.controller_of_added.empty() || !robot.controller.empty();
+    const bool has_controller = !note.controller_of_added.empty() || !robot.controller->empty();
     return note.added_elsewhere == RunNote::Elsewhere::all ||
            (note.added_elsewhere == RunNote::Elsewhere::without_controller && !has_controller);
   }

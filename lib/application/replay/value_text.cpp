@@ -182,11 +182,11 @@ std::string inWords(const Command& command) {
   std::string text = fixed(command.speed_mps, 3) + " m/s, " + fixed(command.turn_radps, 3) + " rad/s";
   if (command.lateral_mps != 0) text += ", " + fixed(command.lateral_mps, 3) + " m/s to the left";
   if (command.laser_pan_rad != 0) text += ", pan " + fixed(command.laser_pan_rad, 3) + " rad";
-  if (const CameraAim& aim = command.camera_head.aim; aim != CameraAim{}) {
+  if (const CameraAim& aim = command.camera_head->aim; aim != CameraAim{}) {
     text += ", camera to pan " + fixed(aim.pan_rad, 3) + " rad, tilt " + fixed(aim.tilt_rad, 3) + " rad, zoom " +
             fixed(aim.zoom, 3);
   }
-  if (const auto& [aim, pan_radps, tilt_radps] = command.camera_head; pan_radps != 0 || tilt_radps != 0) {
+  if (const auto& [aim, pan_radps, tilt_radps] = *command.camera_head; pan_radps != 0 || tilt_radps != 0) {
     text += ", camera at " + fixed(pan_radps, 3) + " and " + fixed(tilt_radps, 3) + " rad/s";
   }
   if (command.grip) text += ", gripper closed";

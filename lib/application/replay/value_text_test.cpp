@@ -44,7 +44,7 @@ TEST(ValueText, OfAnUndescribedSensorListsItsInputs) {
 TEST(ValueText, OfACommandNamesTheDevicesThatItMoves) {
   EXPECT_EQ(inWords(Command{.speed_mps = 0.25, .turn_radps = -1}), "0.250 m/s, -1.000 rad/s");
   EXPECT_EQ(
-      inWords(Command{.camera_head = {{0.5, 0, 2}, 1, 0.25}}),
+      inWords(Command{.camera_head = CameraHeadCommand{{0.5, 0, 2}, 1, 0.25}}),
       "0.000 m/s, 0.000 rad/s, camera to pan 0.500 rad, tilt 0.000 rad, zoom 2.000, camera at 1.000 and 0.250 rad/s");
   EXPECT_EQ(inWords(Command{.emergency_stop = true, .grip = true, .led_color = 0xff0000, .lateral_mps = 0.1}),
             "0.000 m/s, 0.000 rad/s, 0.100 m/s to the left, gripper closed, LEDs 0xff0000, emergency stop");

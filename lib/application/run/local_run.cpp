@@ -95,7 +95,7 @@ bool needsPictures(const std::string& controller) {
 
 bool needPictures(const Fleet& fleet, const std::string& instead, const std::vector<std::string>& observers) {
   return readPictures(observers) || std::any_of(fleet.robots.begin(), fleet.robots.end(), [&](const FleetRobot& robot) {
-           return needsPictures(controllerOf(robot.controller, instead));
+           return needsPictures(controllerOf(*robot.controller, instead));
          });
 }
 
@@ -124,7 +124,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
   for (std::size_t i = 0; i < count; ++i) {
     const FleetRobot& robot = world.fleet.robots[i];
     if (is_elsewhere && is_elsewhere(robot, i)) continue;
-    const ControllerType* type = typeOrNull(controllerOf(robot.controller, instead));
+    const ControllerType* type = typeOrNull(controllerOf(*robot.controller, instead));
     if (!type) continue;  // reported by buildFleet()
     for (const SensorKind kind : missingSensors(*type, *robot.info.sensors)) {
       const SourceLine& line = world.world.robots[i].line;
@@ -160,10 +160,9 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log, options.observers_supervise) {
-  local_robots_.reserve(environment_.robotCount());
   for (std::size_t i = 0; i < environment_.robotCount(); ++i) {
     if (elsewhere.empty() || !elsewhere[i]) {
-      addRobot(i, controllerOf(environment_.fleet().robots[i].controller, options.controller));
+      addRobot(i, controllerOf(*environment_.fleet().robots[i].controller, options.controller));
     }
   }
   allowAdditions();
@@ -189,14 +188,14 @@ LocalRun::LocalRun(ForkOf original)
   auto local = original.run.local_robots_.begin();  // in the world's order
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const std::string& name = robots[i].info.name;
-    if (local == original.run.local_robots_.end() || (*local)->robot.name() != name) {
+    if (local == original.run.local_robots_.end() || local->robot.name() != name) {
       if (original.elsewhere == Elsewhere::keep) continue;
       throw ConfigError("robot '" + name + "': another process drives it, so that its run cannot be forked; let this " +
                         "process run its controller");
     }
-    const ControllerKind& kind = kindOf((*local)->kind.name);
-    auto controller = cloneController(*(*local)->controller, kind.name, name);
-    local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, kind, std::move(controller)));
+    const ControllerKind& kind = kindOf(local->kind.name);
+    auto controller = cloneController(*local->controller, kind.name, name);
+    local_robots_.emplace_back(environment_, i, kind, std::move(controller));
     ++local;
   }
   allowAdditions();
@@ -210,7 +209,7 @@ void LocalRun::addRobot(std::size_t i, const std::string& name) {
     setup.known_world = known_world_;
   }
   auto controller = makeController(name, setup, robot.info.name);
-  local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, kindOf(name), std::move(controller)));
+  local_robots_.emplace_back(environment_, i, kindOf(name), std::move(controller));
   if (options_.breakdown_mean_s <= 0) return;
   breakdown_s_.resize(environment_.robotCount(), std::numeric_limits<double>::infinity());
   breakdown_s_[i] = drawBreakdownTime(i, options_);
@@ -271,7 +270,7 @@ std::string LocalRun::faultOfAdded(const FleetRobot& robot) const {
 }
 
 std::string LocalRun::controllerOfAdded(const FleetRobot& robot) const {
-  if (!robot.controller.empty()) return robot.controller;
+  if (!robot.controller->empty()) return *robot.controller;
   return controllerOf({}, options_.controller_of_added.empty() ? options_.controller : options_.controller_of_added);
 }
 
@@ -282,7 +281,7 @@ void LocalRun::followAdditions() {
   const std::size_t count = environment_.robotCount(), at_start = count - after.size();
   const auto same = static_cast<std::size_t>(
       std::mismatch(before.begin(), before.end(), after.begin(), after.end()).first - before.begin());
-  std::erase_if(local_robots_, [&](const auto& local) { return local->index() >= at_start + same; });
+  while (!local_robots_.empty() && local_robots_.back().index() >= at_start + same) local_robots_.pop_back();
   for (std::size_t i = at_start + same; i < count; ++i) {
     const FleetRobot& robot = environment_.fleet().robots[i];
     if (options_.is_added_elsewhere && options_.is_added_elsewhere(robot)) continue;
@@ -295,7 +294,7 @@ void LocalRun::followAdditions() {
 
 void LocalRun::wrapControllers(
     const std::function<std::unique_ptr<Controller>(LocalHardware&, std::unique_ptr<Controller>)>& wrap) {
-  for (const auto& local : local_robots_) local->controller = wrap(local->hardware, std::move(local->controller));
+  for (LocalRobot& local : local_robots_) local.controller = wrap(local.hardware, std::move(local.controller));
 }
 
 std::unique_ptr<LocalRun> LocalRun::fork(Elsewhere elsewhere) const {
@@ -322,7 +321,7 @@ bool LocalRun::dependsOnSeed() const {
 
 bool LocalRun::hasDrawnRandomNumbers() const {
   return std::any_of(local_robots_.begin(), local_robots_.end(),
-                     [](const auto& robot) { return robot->controller->hasDrawnRandomNumbers(); });
+                     [](const auto& robot) { return robot.controller->hasDrawnRandomNumbers(); });
 }
 
 void LocalRun::selectPictures(std::vector<std::uint8_t> robots) {
@@ -355,7 +354,7 @@ void LocalRun::takePictures(const std::vector<std::uint8_t>& requested) {
 std::vector<std::uint8_t> LocalRun::withPictureReaders(std::vector<std::uint8_t> robots) const {
   robots.resize(environment_.robotCount());
   for (const auto& local : local_robots_) {
-    if (local->index() < robots.size() && local->kind.reads_pictures) robots[local->index()] = 1;
+    if (local.index() < robots.size() && local.kind.reads_pictures) robots[local.index()] = 1;
   }
   return robots;
 }
@@ -370,7 +369,7 @@ void LocalRun::decide() {
   followAdditions();
   constexpr std::size_t kChunk = 16;
   workers_.forEach(local_robots_.size(), kChunk, [&](std::size_t i) {
-    LocalRobot& local = *local_robots_[i];
+    LocalRobot& local = local_robots_[i];
     if (!breakdown_s_.empty() && environment_.time().seconds() >= breakdown_s_[local.index()]) {
       if (local.robot.activity() == Activity::active) local.robot.halt();
       return;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -213,10 +214,10 @@ class LocalRun {
   Environment environment_;
   ParallelExecutor workers_;
   std::map<std::string, ControllerKind> controller_kinds_;  ///< by name; LocalRobots refer to them
-  std::vector<std::unique_ptr<LocalRobot>> local_robots_;   ///< on the heap: each Robot refers to its LocalHardware
-  std::vector<double> breakdown_s_;                         ///< simulated times, by robot; empty if none breaks down
-  RobotAdditions additions_;                                ///< those that have been followed
-  std::shared_ptr<const KnownWorld> known_world_;           ///< null until a controller needs it
+  std::deque<LocalRobot> local_robots_;  ///< in the world's order; at fixed places, because each refers to its parts
+  std::vector<double> breakdown_s_;      ///< simulated times, by robot; empty if none breaks down
+  RobotAdditions additions_;             ///< those that have been followed
+  std::shared_ptr<const KnownWorld> known_world_;  ///< null until a controller needs it
   std::optional<bool> has_drawn_elsewhere_;
   RunObservers observers_;
 };

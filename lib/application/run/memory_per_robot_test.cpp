@@ -74,7 +74,7 @@ TEST(MemoryPerRobot, IsBounded) {
   const double per_robot =
       (static_cast<double>(bytesOf(kMore)) - static_cast<double>(bytesOf(kSome))) / (kMore - kSome);
   RecordProperty("bytes", static_cast<int>(per_robot));
-  EXPECT_LT(per_robot, 2200);
+  EXPECT_LT(per_robot, 1850);
   EXPECT_GT(per_robot, 500) << "the measurement itself";
 }
 #endif

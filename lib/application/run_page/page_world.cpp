@@ -113,7 +113,7 @@ ordered_json pageObjects(const std::vector<WorldObject>& objects) {
 
 ordered_json pageRobot(const FleetRobot& robot, ordered_json& types) {
   ordered_json type = shapeOf(robot.body());
-  type["model"] = robot.info.model;
+  type["model"] = robot.info.type->model;
   type["deck"] = robot.model && robot.model->look == BodyLook::deck;
   type["sensors"] = ordered_json::array();
   if (robot.info.sensors) {
@@ -123,7 +123,7 @@ ordered_json pageRobot(const FleetRobot& robot, ordered_json& types) {
   while (index < types.size() && types[index] != type) ++index;
   if (index == types.size()) types.push_back(std::move(type));
   ordered_json json{{"name", robot.info.name}, {"type", index}, {"color", hexOf(robot.color)}};
-  if (!robot.controller.empty()) json["controller"] = robot.controller;
+  if (!robot.controller->empty()) json["controller"] = *robot.controller;
   return json;
 }
 

@@ -26,7 +26,7 @@ std::optional<std::size_t> ArcosFactory::add() {
   if (!places_) {
     const auto& robots = environment_.fleet().robots;
     const auto kind =
-        std::find_if(robots.begin(), robots.end(), [&](const auto& robot) { return robot.info.model == type_; });
+        std::find_if(robots.begin(), robots.end(), [&](const auto& robot) { return robot.info.type->model == type_; });
     radius_m_ = kind->info.radius_m;
     places_.emplace(environment_.world(), Fleet(), *kind);
   }

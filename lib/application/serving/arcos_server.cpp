@@ -64,7 +64,7 @@ struct ServedRobot final : Simulator {
         board(robot, *the_environment.fleet().robots[robot_index].model->arcos) {}
 
   const std::string& name() const { return robot.name(); }
-  const std::string& model() const { return environment.fleet().robots[index].info.model; }
+  const std::string& model() const { return environment.fleet().robots[index].info.type->model; }
 
   arcos::SimStat stat() const override {
     const double period_ms = environment.time().period_s * 1000;
@@ -425,7 +425,7 @@ void ArcosServer::decide() { impl_->decide(); }
 void ArcosServer::stepped() { impl_->stepped(); }
 
 bool isForArcos(const FleetRobot& robot, const ArcosOptions& options, bool has_controller) {
-  return (!robot.model || robot.model->arcos) && (options.has_all || (!has_controller && robot.controller.empty()));
+  return (!robot.model || robot.model->arcos) && (options.has_all || (!has_controller && robot.controller->empty()));
 }
 
 }  // namespace robosim

@@ -116,7 +116,7 @@ TEST_F(FoxgloveCommandsTest, DrivesOnWhenARobotIsAddedAndDrivesThatToo) {
 }
 
 TEST_F(FoxgloveCommandsTest, LimitsTheSpeedToThatOfTheRobot) {
-  const double speed_max_mps = run.environment().fleet().robots[0].info.limits.speed_max_mps;
+  const double speed_max_mps = run.environment().fleet().robots[0].info.type->limits.speed_max_mps;
   drive(anna(), 1e9);
   EXPECT_EQ(command().speed_mps, speed_max_mps);
   EXPECT_EQ(drive(anna(), std::numeric_limits<double>::infinity()), "speeds must be finite");

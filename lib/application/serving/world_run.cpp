@@ -44,7 +44,7 @@ bool isAddedForArcos(const FleetRobot& robot, const WorldRunOptions& options) {
 /// @throws ConfigError when ARCOS programs cannot drive robots of the factory's type
 void requireArcosType(const Fleet& fleet, const ArcosOptions& options) {
   const auto kind = std::find_if(fleet.robots.begin(), fleet.robots.end(),
-                                 [&](const FleetRobot& robot) { return robot.info.model == options.factory; });
+                                 [&](const FleetRobot& robot) { return robot.info.type->model == options.factory; });
   if (kind != fleet.robots.end() && kind->model->arcos) return;
   throw ConfigError("--arcos-factory " + options.factory +
                     ": ARCOS programs cannot drive robots of this type, which has no <arcos>; use another one, such as "
@@ -61,7 +61,7 @@ std::vector<std::uint8_t> arcosFlags(const Fleet& fleet, const WorldRunOptions& 
 /// Whether a process that uses the protocol of RoboSim drives a robot, unless ARCOS programs do: every one, if the
 /// environment waits for them; otherwise one without a controller.
 bool isNetworked(const FleetRobot& robot, const WorldRunOptions& options) {
-  const bool has_controller = !options.of_run.run.controller.empty() || !robot.controller.empty();
+  const bool has_controller = !options.of_run.run.controller.empty() || !robot.controller->empty();
   return options.wait_for_robots || !has_controller;
 }
 
@@ -231,7 +231,7 @@ void WorldRun::logArcosPorts() const {
   }
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const RobotInfo& robot = environment.fleet().robots[robots[i]].info;
-    options_.arcos->log("robot " + robot.name + " (" + robot.model + ") for ARCOS programs on " +
+    options_.arcos->log("robot " + robot.name + " (" + robot.type->model + ") for ARCOS programs on " +
                         withPort(options_.arcos->listen, ports[i]));
   }
 }

@@ -106,9 +106,9 @@ double PioneerRobot::getTransDecel() const { return way_limits_.decel * kMmPerM;
 double PioneerRobot::getRotVelMax() const { return turn_limits_.speed_max * kDegPerRad; }
 double PioneerRobot::getRotAccel() const { return turn_limits_.accel * kDegPerRad; }
 double PioneerRobot::getRotDecel() const { return turn_limits_.decel * kDegPerRad; }
-double PioneerRobot::getAbsoluteMaxTransVel() const { return robot_.info().limits.speed_max_mps * kMmPerM; }
-double PioneerRobot::getAbsoluteMaxRotVel() const { return robot_.info().limits.turn_max_radps * kDegPerRad; }
-double PioneerRobot::getAbsoluteMaxLatVel() const { return robot_.info().limits.lateral_max_mps * kMmPerM; }
+double PioneerRobot::getAbsoluteMaxTransVel() const { return robot_.info().type->limits.speed_max_mps * kMmPerM; }
+double PioneerRobot::getAbsoluteMaxRotVel() const { return robot_.info().type->limits.turn_max_radps * kDegPerRad; }
+double PioneerRobot::getAbsoluteMaxLatVel() const { return robot_.info().type->limits.lateral_max_mps * kMmPerM; }
 
 void PioneerRobot::obey(const ActionDesired& desired) {
   AxisLimits way = way_limits_, turn = turn_limits_;

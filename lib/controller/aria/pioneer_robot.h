@@ -112,7 +112,7 @@ class PioneerRobot : public PioneerSensors {
   void setVel2(double left_mm_ps, double right_mm_ps);
   void setRotVel(double deg_ps);
   void setLatVel(double mm_ps);  ///< to the left; without effect unless hasLatVel()
-  bool hasLatVel() const { return robot_.info().drive.kind == DriveKind::omni; }
+  bool hasLatVel() const { return robot_.info().type->drive.kind == DriveKind::omni; }
   void setHeading(double deg);       ///< in the frame of getPose(), by the smaller angle
   void setDeltaHeading(double deg);  ///< relative to the present heading
   void move(double mm);              ///< negative: backwards

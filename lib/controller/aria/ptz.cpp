@@ -37,19 +37,19 @@ bool PTZ::haltZoom() {
 }
 
 bool PTZ::panSlew(double degps) {
-  robot_.limitCameraSpeed(degps * kRadPerDeg, robot_.command().camera_head.tilt_radps);
+  robot_.limitCameraSpeed(degps * kRadPerDeg, robot_.command().camera_head->tilt_radps);
   return isThere();
 }
 
 bool PTZ::tiltSlew(double degps) {
-  robot_.limitCameraSpeed(robot_.command().camera_head.pan_radps, degps * kRadPerDeg);
+  robot_.limitCameraSpeed(robot_.command().camera_head->pan_radps, degps * kRadPerDeg);
   return isThere();
 }
 
 double PTZ::getPan() const { return -sign_ * robot_.cameraAim().pan_rad / kRadPerDeg; }
 double PTZ::getTilt() const { return sign_ * robot_.cameraAim().tilt_rad / kRadPerDeg; }
-double PTZ::panCommanded() const { return -sign_ * robot_.command().camera_head.aim.pan_rad / kRadPerDeg; }
-double PTZ::tiltCommanded() const { return sign_ * robot_.command().camera_head.aim.tilt_rad / kRadPerDeg; }
+double PTZ::panCommanded() const { return -sign_ * robot_.command().camera_head->aim.pan_rad / kRadPerDeg; }
+double PTZ::tiltCommanded() const { return sign_ * robot_.command().camera_head->aim.tilt_rad / kRadPerDeg; }
 
 double PTZ::getMaxPosPan() const { return (getInverted() ? limits().pan_max_rad : -limits().pan_min_rad) / kRadPerDeg; }
 double PTZ::getMaxNegPan() const { return (getInverted() ? limits().pan_min_rad : -limits().pan_max_rad) / kRadPerDeg; }
@@ -63,11 +63,11 @@ double PTZ::getMaxPanSpeed() const { return limits().pan_radps / kRadPerDeg; }
 double PTZ::getMaxTiltSpeed() const { return limits().tilt_radps / kRadPerDeg; }
 
 double PTZ::getPanSlew() const {
-  const double degps = robot_.command().camera_head.pan_radps / kRadPerDeg;
+  const double degps = robot_.command().camera_head->pan_radps / kRadPerDeg;
   return degps > 0 ? std::min(degps, getMaxPanSpeed()) : getMaxPanSpeed();
 }
 double PTZ::getTiltSlew() const {
-  const double degps = robot_.command().camera_head.tilt_radps / kRadPerDeg;
+  const double degps = robot_.command().camera_head->tilt_radps / kRadPerDeg;
   return degps > 0 ? std::min(degps, getMaxTiltSpeed()) : getMaxTiltSpeed();
 }
 

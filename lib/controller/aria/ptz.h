@@ -27,7 +27,7 @@ class PTZ {
   bool panRel(double deg) { return panTiltRel(deg, 0); }
   bool tiltRel(double deg) { return panTiltRel(0, deg); }
   bool zoom(int position);
-  bool zoomRel(int positions) { return zoom(positionOf(robot_.command().camera_head.aim.zoom) + positions); }
+  bool zoomRel(int positions) { return zoom(positionOf(robot_.command().camera_head->aim.zoom) + positions); }
   bool haltPanTilt();
   bool haltZoom();
   bool panSlew(double degps);   ///< speed of the pan; 0: the largest

@@ -25,7 +25,7 @@ struct Seeing {
     hardware.mutableInfo().sensors = sensors;
   }
   void set(const CameraAim& aim) { hardware.mutableReadings().measurements[slot] = aim.values(); }
-  const CameraHeadCommand& commanded() const { return hardware.lastCommand().camera_head; }
+  const CameraHeadCommand& commanded() const { return *hardware.lastCommand().camera_head; }
 };
 
 TEST(AriaPtz, CommandsDegreesToTheRightAndUp) {

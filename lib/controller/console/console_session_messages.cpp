@@ -57,7 +57,7 @@ v1::ControlRequest ConsoleSession::orderOf(const Page& page, const PageMessage& 
   if (type == OrderType::set_mode) return modeOrder(message.on);
   if (type == OrderType::stop) return stopOrder(message.why.empty() ? "" : page.name + "'s page " + message.why);
   if (type != OrderType::drive) return makeOrder(type);
-  const MotionLimits& limits = feed_.primary.info->limits;
+  const MotionLimits& limits = feed_.primary.info->type->limits;
   const auto scaled = [](std::optional<double> part, double max) { return part ? std::optional(*part * max) : part; };
   return driveOrder(scaled(message.speed, limits.speed_max_mps), scaled(message.turn, limits.turn_max_radps),
                     message.pan_rad);

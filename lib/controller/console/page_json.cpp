@@ -206,10 +206,10 @@ std::string robotJson(const RobotInfo& robot, double period_s) {
   for (const auto& sensor : *robot.sensors) sensors.push_back(toJson(sensor));
   return textOf({{"type", "robot"},
                  {"name", robot.name},
-                 {"model", robot.model},
+                 {"model", robot.type->model},
                  {"radius_m", robot.radius_m},
-                 {"speed_max_mps", robot.limits.speed_max_mps},
-                 {"turn_max_radps", robot.limits.turn_max_radps},
+                 {"speed_max_mps", robot.type->limits.speed_max_mps},
+                 {"turn_max_radps", robot.type->limits.turn_max_radps},
                  {"period_s", period_s},
                  {"sensors", sensors}});
 }
@@ -223,7 +223,7 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
     const RobotNews& news = robot.news;
     team.push_back({{"name", robot.name},
                     {"address", robot.address},
-                    {"model", news.info ? news.info->model : ""},
+                    {"model", news.info ? news.info->type->model : ""},
                     {"up", news.is_up},
                     {"over", news.is_over},
                     {"problem", news.problem},

@@ -19,12 +19,12 @@ AxisLimits clipped(const AxisLimits& desired, const AxisLimits& hardware) {
 }
 
 AxisLimits hardwareWay(const Robot& robot) {
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   return {limits.speed_max_mps, limits.accel_mps2, limits.decel_mps2};
 }
 
 AxisLimits hardwareTurn(const Robot& robot) {
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   return {limits.turn_max_radps, limits.turn_accel_radps2, limits.turn_accel_radps2};
 }
 
@@ -86,7 +86,7 @@ void ProfiledDrive::setTurn(double turn_radps) {
 }
 
 void ProfiledDrive::setLateral(double lateral_mps) {
-  if (robot_.info().drive.kind == DriveKind::omni) lateral_mps_ = lateral_mps;
+  if (robot_.info().type->drive.kind == DriveKind::omni) lateral_mps_ = lateral_mps;
   command();
 }
 

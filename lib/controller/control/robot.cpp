@@ -80,8 +80,9 @@ CameraAim Robot::cameraAim() const {
 }
 
 void Robot::drive(double speed_mps, double turn_radps, double lateral_mps) {
-  if (lateral_mps != 0 && info().drive.kind != DriveKind::omni) {
-    throw std::invalid_argument("robot '" + info().name + "' has a drive of the type " + nameOf(info().drive.kind) +
+  if (lateral_mps != 0 && info().type->drive.kind != DriveKind::omni) {
+    throw std::invalid_argument("robot '" + info().name + "' has a drive of the type " +
+                                nameOf(info().type->drive.kind) +
                                 ", which has no lateral speed; use 0, or a robot with <drive type=\"omni\"/>");
   }
   const Command& last = command();
@@ -128,7 +129,7 @@ void Robot::stopCamera() {
 
 template <typename Change>
 void Robot::changeHead(const Change& change) {
-  if (hasHead()) changeCommand([&](Command& changed) { change(changed.camera_head); });
+  if (hasHead()) changeCommand([&](Command& changed) { change(changed.camera_head.edit()); });
 }
 
 template <typename Change>

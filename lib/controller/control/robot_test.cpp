@@ -77,11 +77,13 @@ TEST(Robot, CommandsTheHeadOfItsCamera) {
   robot.limitCameraSpeed(0.5, 0.25);
   robot.aimCamera(1, -0.5);
   robot.drive(0.5, 0);
-  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5, .camera_head = {{1, -0.5, 3}, 0.5, 0.25}}));
+  EXPECT_EQ(hardware.lastCommand(),
+            (Command{.speed_mps = 0.5, .camera_head = CameraHeadCommand{{1, -0.5, 3}, 0.5, 0.25}}));
   robot.stopCamera();
-  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5, .camera_head = {{0.25, 0.5, 2}, 0.5, 0.25}}));
+  EXPECT_EQ(hardware.lastCommand(),
+            (Command{.speed_mps = 0.5, .camera_head = CameraHeadCommand{{0.25, 0.5, 2}, 0.5, 0.25}}));
   robot.halt();
-  EXPECT_EQ(hardware.lastCommand().camera_head.aim, (CameraAim{0.25, 0.5, 2}));
+  EXPECT_EQ(hardware.lastCommand().camera_head->aim, (CameraAim{0.25, 0.5, 2}));
 }
 
 TEST(Robot, PassesItsCommandsOn) {
@@ -154,7 +156,7 @@ TEST(Robot, SendsAndReceivesMessages) {
   robot.send("other", "hello");
   ASSERT_EQ(hardware.sent.size(), 1u);
   EXPECT_EQ(hardware.sent[0], (RobotMessage{"fake", "other", "hello"}));
-  hardware.mutableReadings().inbox = {{"other", "fake", "hi"}};
+  hardware.mutableReadings().inbox.edit() = {{"other", "fake", "hi"}};
   ASSERT_EQ(robot.inbox().size(), 1u);
   EXPECT_EQ(robot.inbox()[0].text, "hi");
 }

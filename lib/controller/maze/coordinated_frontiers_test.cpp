@@ -77,7 +77,7 @@ TEST_F(CoordinatedFrontiersTest, LeavesTheSurroundingsOfAnotherTargetToTheOther)
   alone.step(robot);
   const auto own = TargetMessage::parse(sentOf("TARGET").at(0))->target_m;
   hardware.sent.clear();
-  hardware.mutableReadings().inbox = {{"other", "fake", TargetMessage{own}.text()}};
+  hardware.mutableReadings().inbox.edit() = {{"other", "fake", TargetMessage{own}.text()}};
   controller.step(robot);
   const auto evaded = TargetMessage::parse(sentOf("TARGET").at(0))->target_m;
   EXPECT_GT((*evaded - *own).norm(), 3);
@@ -95,7 +95,7 @@ TEST_F(CoordinatedFrontiersTest, DoesNotSearchWhatOthersHaveSearched) {
     for (std::size_t k = i; k < std::min(searched.tiles.size(), i + MapMessage::kMaxTiles); ++k) {
       part.tiles.push_back(searched.tiles[k]);
     }
-    hardware.mutableReadings().inbox.push_back({"other", "fake", part.text()});
+    hardware.mutableReadings().inbox.edit().push_back({"other", "fake", part.text()});
   }
   controller.step(robot);
   EXPECT_LT(TargetMessage::parse(sentOf("TARGET").at(0))->target_m->x, 10.8);

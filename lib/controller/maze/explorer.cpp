@@ -90,7 +90,7 @@ void Explorer::step(Robot& robot, const GoalCost* goal_cost) {
   }
   if (robot.stepNumber() >= plan_from_ && needsPlan()) plan(robot, goal_cost);
   if (driver_.empty()) {
-    robot.drive(0, robot.info().limits.turn_max_radps / 2);  // look around
+    robot.drive(0, robot.info().type->limits.turn_max_radps / 2);  // look around
   } else {
     driver_.drive(robot, tracker_.startFromRobot(), search_.map);
   }
@@ -259,7 +259,7 @@ bool Explorer::isStuck(const Robot& robot) {
 
 void Explorer::drawBack(Robot& robot) {
   const auto& pose = tracker_.startFromRobot();
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   // The map does not contain the obstacle, which must be directly ahead.
   const double reach = robot.info().radius_m + search_.map.cellSize() / 2;
   search_.obstacles.bump(portable::compose(pose, mrpt::math::TPoint2D(reach, 0)));

@@ -33,7 +33,7 @@ TEST(GoldSearch, HaltsAndForwardsAReceivedGold) {
   FakeHardware hardware(16, "next");
   Robot robot(hardware);
   GoldSearch search(std::make_unique<Ahead>());
-  hardware.mutableReadings().inbox = {{"before", "fake", "GOLD Finder7"}};
+  hardware.mutableReadings().inbox.edit() = {{"before", "fake", "GOLD Finder7"}};
   search.step(robot);
   EXPECT_EQ(robot.activity(), Activity::halted);
   ASSERT_EQ(hardware.sent.size(), 1u);

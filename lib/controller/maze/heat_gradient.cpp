@@ -69,7 +69,7 @@ void HeatGradient::ascend(Robot& robot) {
     walk_.step(robot);
     return;
   }
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   const double speed_mps = kSpeed * limits.speed_max_mps;
   const auto gradient = slope_->gradient();
   if (!gradient || gradient->norm() == 0) {

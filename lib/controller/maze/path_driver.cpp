@@ -94,7 +94,7 @@ void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot
     robot.stop();
     return;
   }
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   double speed = 0;
   if (std::abs(off) < kTurnOnSpot_rad) {
     // Slow enough to brake within the clearance, and to reach the target point with kBendSpeed.

@@ -43,7 +43,7 @@ double headingAfter(const std::vector<Cell>& visited, const std::vector<std::siz
   Robot robot(hardware);
   Stigmergy controller({.world_from_start = kCellStart});
   for (const auto& cell : visited) {
-    hardware.mutableReadings().inbox.push_back({"other", "fake", TrailMessage{cell}.text()});
+    hardware.mutableReadings().inbox.edit().push_back({"other", "fake", TrailMessage{cell}.text()});
   }
   for (int i = 0; i < 40; ++i) {
     controller.step(robot);
@@ -70,7 +70,7 @@ TEST(Stigmergy, WithoutItsStartIgnoresMessagesAndSendsNone) {
   hardware.robot_names = {"fake", "other"};
   Robot robot(hardware);
   Stigmergy controller({});
-  hardware.mutableReadings().inbox.push_back({"other", "fake", "TRAIL 1 0"});
+  hardware.mutableReadings().inbox.edit().push_back({"other", "fake", "TRAIL 1 0"});
   controller.step(robot);
   EXPECT_TRUE(hardware.sent.empty());
 }

@@ -34,7 +34,7 @@ bool StraightStep::hasEnded(const Robot& robot) {
 }
 
 void StraightStep::drive(Robot& robot) const {
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   if (turn_rad_ != 0) {
     robot.drive(0, std::clamp(kTurnRate_per_s * turn_rad_, -limits.turn_max_radps, limits.turn_max_radps));
     return;

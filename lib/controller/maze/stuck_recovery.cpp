@@ -69,7 +69,7 @@ bool StuckRecovery::hasLeft(const Stay& stay, double radii, const Robot& robot) 
 }
 
 void StuckRecovery::turnOrDrive(Robot& robot) {
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   const auto now = static_cast<std::uint32_t>(robot.stepNumber());
   const bool is_blocked = robot.stalled() || clearanceInLane(robot, 1) < kGap_m;
   if (now >= turn_until_ && (is_blocked || now >= drive_until_)) {
@@ -84,7 +84,7 @@ void StuckRecovery::turnOrDrive(Robot& robot) {
 }
 
 void StuckRecovery::followBoundary(Robot& robot) {
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   const auto now = static_cast<std::uint32_t>(robot.stepNumber());
   const std::uint64_t rounds = (now - pocket_.since) / robot.stepsIn(kRound_s);
   const double side = rounds % 2 == 0 ? 1 : -1;

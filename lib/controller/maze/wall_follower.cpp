@@ -38,7 +38,7 @@ constexpr double kTouchAhead_s = 1;
 
 void WallFollower::step(Robot& robot) {
   if (recovery_.takesOver(robot)) return;
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   const double radius = robot.info().radius_m;
   const double distance = options_.distance_radii * radius;
   const Nearest ahead = nearestBetween(robot, -35 * kRadPerDeg, 35 * kRadPerDeg);

@@ -45,7 +45,7 @@ void Wander::step(Robot& robot) {
   if (recovery_.takesOver(robot)) return;
   const RobotInfo& info = robot.info();
   const Readings& readings = robot.readings();
-  const MotionLimits& limits = info.limits;
+  const MotionLimits& limits = info.type->limits;
   const double radius = info.radius_m;
   const auto now = static_cast<std::uint32_t>(readings.time.step);
   const Clearance clearance = clearanceInFront(robot, info, readings);

@@ -19,8 +19,8 @@ bool JoystickControl::isLost(const RobotNews& robot, Clock::time_point now) {
 
 JoystickControl::Output JoystickControl::next(const RobotNews& robot, const StickState& stick, Clock::time_point now) {
   if (!robot.info) return {};  // it has never been connected
-  if (robot.update) driver_.setCommanded(robot.update->state.speed_mps() / robot.info->limits.speed_max_mps, now);
-  const auto converted = driver_.convert(stick, robot.info->limits, now);
+  if (robot.update) driver_.setCommanded(robot.update->state.speed_mps() / robot.info->type->limits.speed_max_mps, now);
+  const auto converted = driver_.convert(stick, robot.info->type->limits, now);
   Output output{.switches = converted.switches};
   const bool is_stop = converted.order && converted.order->has_stop();
   if (is_stop) output.orders.push_back(*converted.order);

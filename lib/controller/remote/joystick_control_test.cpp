@@ -12,7 +12,7 @@ class JoystickControlTest : public testing::Test {
  protected:
   JoystickControlTest() {
     RobotInfo info;
-    info.limits.speed_max_mps = 2;
+    info.type.edit().limits.speed_max_mps = 2;
     robot_.info = std::make_shared<const RobotInfo>(info);
     robot_.is_up = true;
     robot_.state.set_is_yours(true);

@@ -65,7 +65,7 @@ TEST(Orders, EachRequestOfTheProtocolBesidesTheSessionsHasARow) {
 /// The robot's command after an order in a step, from 0.5 m/s and 0.25 rad/s. Its maximum is 1 m/s and 2 rad/s.
 Command commandAfter(const v1::ControlRequest& order) {
   FakeHardware hardware;
-  DriveCommandFilter filter(hardware.info().limits);
+  DriveCommandFilter filter(hardware.info().type->limits);
   const DriveCommandFilter::Clock::time_point now{1h};
   filter.begin(now);
   filter.obey(driveOrder(0.5, 0.25), now);

@@ -47,7 +47,8 @@ class RemoteControlRobot::ControllersView final : public Hardware {
     hardware_.command(command_);
     if (held_.empty()) return;
     readings_ = hardware_.readings();
-    readings_.inbox.insert(readings_.inbox.begin(), held_.begin(), held_.end());
+    std::vector<RobotMessage>& kept = readings_.inbox.edit();
+    kept.insert(kept.begin(), held_.begin(), held_.end());
   }
   /// The controller has received the stored messages.
   void finishStep() { held_.clear(); }
@@ -66,7 +67,7 @@ RemoteControlRobot::RemoteControlRobot(Hardware& hardware, std::unique_ptr<Contr
       options_(options),
       view_(std::make_unique<ControllersView>(hardware)),
       robot_(*view_),
-      filter_(hardware.info().limits, options.dead_man) {}
+      filter_(hardware.info().type->limits, options.dead_man) {}
 
 RemoteControlRobot::~RemoteControlRobot() = default;
 
@@ -114,7 +115,7 @@ void RemoteControlRobot::step() {
   state_.set_lateral_mps(commanded.lateral_mps);
   state_.set_activity(encode(commanded.activity));
   const Readings& readings = hardware_.readings();
-  state_.set_winner(readings.winner);
+  state_.set_winner(*readings.winner);
   if (!readings.winner.empty()) {
     state_.set_activity(readings.winner == name() ? v1::ACTIVITY_FOUND : v1::ACTIVITY_HALTED);
   }

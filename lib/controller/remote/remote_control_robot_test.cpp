@@ -103,7 +103,7 @@ TEST_F(RemoteControlRobotTest, ChangesTheSourceOfCommandsWithoutAJumpInSpeed) {
   steps(20);
   double before = hardware.odometry().speed_mps;
   EXPECT_EQ(before, 0.5);
-  const auto& limits = hardware.info().limits;
+  const auto& limits = hardware.info().type->limits;
   for (int i = 0; i < 60; ++i) {
     if (i == 0) robot.take("Anna", false);
     if (i % 10 == 5) robot.obey(driveOrder(1, 2));
@@ -130,7 +130,7 @@ TEST_F(RemoteControlRobotTest, RepeatsTheControllersLastCommandAfterRemoteContro
 
 TEST_F(RemoteControlRobotTest, DeliversMessagesReceivedDuringRemoteControlToTheController) {
   const auto deliver = [&](const std::string& text) {
-    hardware.mutableReadings().inbox = {{"other", hardware.info().name, text}};
+    hardware.mutableReadings().inbox.edit() = {{"other", hardware.info().name, text}};
   };
   robot.take("Anna", false);
   deliver("first");

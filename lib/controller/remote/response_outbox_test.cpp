@@ -144,7 +144,7 @@ TEST_F(ResponseOutboxTest, ForwardsAReceivedMessageAsItWouldEncodeItsReadings) {
   ResponseOutbox encoding{port_robot, welcome()};
   hardware.setHeat(7);
   hardware.setLaserRange(2);
-  hardware.mutableReadings().inbox = {{"other", hardware.info().name, "text"}};
+  hardware.mutableReadings().inbox.edit() = {{"other", hardware.info().name, "text"}};
   for (const char* jpeg : {"picture", "", "another"}) {
     std::get<Image>(hardware.mutableReadings().measurements[4]).jpeg = jpeg;
     port_robot.keepPictures();

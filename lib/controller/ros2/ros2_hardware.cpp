@@ -100,7 +100,7 @@ void Ros2Hardware::subscribe() {
     }
   }
   if (!unused.empty()) {
-    throw ConfigError("the robot type '" + info_.model + "' has no topic '" + unused.begin()->first +
+    throw ConfigError("the robot type '" + info_.type->model + "' has no topic '" + unused.begin()->first +
                       "' for which another name could be given; it has " + listed([&] {
                         std::vector<std::string> names{"cmd_vel"};
                         for (const auto& sensor : *info_.sensors) {
@@ -192,7 +192,7 @@ void Ros2Hardware::describe() {
   readings_.time.period_s = kPeriod_s;
   start_ns_ = step_ns_ = channels_.front()->stamp_ns;
   options_.log("connected to " + (options_.prefix.empty() ? std::string("the robot") : options_.prefix) + " (" +
-               options_.where + "), as a " + info_.model + "; not available: " + listed(missing));
+               options_.where + "), as a " + info_.type->model + "; not available: " + listed(missing));
 }
 
 bool Ros2Hardware::becomeScanner(SensorInfo& sensor, const Channel& channel) {
@@ -212,7 +212,7 @@ mrpt::math::TPose3D Ros2Hardware::mountOf(const ros::LaserScan& scan, const Sens
   if (const auto found = frames_.find(base_frame_, frame, 0)) return found->asTPose();
   const auto geometry = toScanGeometry(of_type.beams);
   options_.log("/tf_static has no transform from '" + base_frame_ + "' to '" + frame + "'; the place of '" +
-               of_type.label + "' is that of the robot type " + info_.model);
+               of_type.label + "' is that of the robot type " + info_.type->model);
   return geometry ? geometry->robot_from_middle : mrpt::math::TPose3D();
 }
 
@@ -284,9 +284,9 @@ void Ros2Hardware::sendCommand() {
   const auto limited = [&](double value, double limit) {
     return may_move && std::isfinite(value) ? std::clamp(value, -limit, limit) : 0;
   };
-  sendSpeeds(limited(command_.speed_mps, info_.limits.speed_max_mps),
-             limited(command_.turn_radps, info_.limits.turn_max_radps),
-             limited(command_.lateral_mps, info_.limits.lateral_max_mps));
+  sendSpeeds(limited(command_.speed_mps, info_.type->limits.speed_max_mps),
+             limited(command_.turn_radps, info_.type->limits.turn_max_radps),
+             limited(command_.lateral_mps, info_.type->limits.lateral_max_mps));
 }
 
 void Ros2Hardware::sendSpeeds(double speed_mps, double turn_radps, double lateral_mps) {

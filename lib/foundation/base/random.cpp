@@ -13,23 +13,14 @@ Rng::Rng(std::uint64_t seed, RandomPurpose purpose, std::uint32_t robot, std::ui
       // The counter's words: robot, purpose and item, step, and number of blocks drawn.
       counter_{robot, (static_cast<std::uint32_t>(purpose) << 24) ^ item, static_cast<std::uint32_t>(step), 0} {}
 
-Rng::result_type Rng::operator()() {
-  if (left_ == 0) {
-    const r123::Philox4x32 philox;
-    const r123::Philox4x32::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
-    const r123::Philox4x32::key_type key{{static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
-    const auto block = philox(counter, key);
-    for (unsigned i = 0; i < 4; ++i) block_[i] = block[i];
-    ++counter_[3];
-    left_ = 4;
-  }
-  return block_[--left_];
-}
-
-double Rng::uniform() {
-  const std::uint64_t high = (*this)() >> 5;
-  const std::uint64_t low = (*this)() >> 6;
-  return static_cast<double>((high << 26) | low) * 0x1p-53;
+void Rng::drawBlock() {
+  const r123::Philox4x32 philox;
+  const r123::Philox4x32::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
+  const r123::Philox4x32::key_type key{{static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
+  const auto block = philox(counter, key);
+  for (unsigned i = 0; i < 4; ++i) block_[i] = block[i];
+  ++counter_[3];
+  left_ = 4;
 }
 
 double Rng::uniform(double from, double to) { return from + (to - from) * uniform(); }

@@ -36,16 +36,25 @@ class Rng {
     left_ = 0;
   }
 
-  result_type operator()();
+  result_type operator()() {
+    if (left_ == 0) drawBlock();
+    return block_[--left_];
+  }
   static constexpr result_type min() { return 0; }
   static constexpr result_type max() { return 0xffffffffu; }
 
-  double uniform();                        ///< in [0, 1)
+  double uniform() {  ///< in [0, 1)
+    const std::uint64_t high = (*this)() >> 5;
+    const std::uint64_t low = (*this)() >> 6;
+    return static_cast<double>((high << 26) | low) * 0x1p-53;
+  }
   double uniform(double from, double to);  ///< in [from, to)
   double gaussian();                       ///< mean 0, standard deviation 1
   std::uint32_t below(std::uint32_t n);    ///< in [0, n), n > 0; even to within n / 2^32
 
  private:
+  void drawBlock();
+
   std::uint64_t seed_;
   std::array<std::uint32_t, 4> counter_;
   std::array<std::uint32_t, 4> block_{};

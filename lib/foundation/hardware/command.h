@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "base/often_default.h"
 #include "hardware/camera_head.h"
 
 namespace robosim {
@@ -28,8 +29,9 @@ struct Command {
   bool grip = false;
   /// Colour of the robot's LEDs, 0xRRGGBB (hardware/led_color.h); 0: off.
   std::uint32_t led_color = 0;
-  double lateral_mps = 0;              ///< to the left; without effect on a robot whose drive is not omnidirectional
-  CameraHeadCommand camera_head = {};  ///< without effect on a robot without a camera that pans, tilts and zooms
+  double lateral_mps = 0;  ///< to the left; without effect on a robot whose drive is not omnidirectional
+  /// Without effect on a robot without a camera that pans, tilts and zooms.
+  OftenDefault<CameraHeadCommand> camera_head = {};
   bool operator==(const Command&) const = default;
 
   /// A command for an active robot at rest that leaves its devices as they are: pan angle, gripper, LEDs and

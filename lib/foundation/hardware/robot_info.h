@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/often_default.h"
+#include "base/shared_value.h"
 #include "hardware/drive.h"
 #include "hardware/sensor_info.h"
 
@@ -24,17 +26,23 @@ struct MotionLimits {
   bool operator==(const MotionLimits&) const = default;
 };
 
-/// Description of a robot for its controller; constant during a run.
+/// What robots of a type have in common besides their bodies and sensors.
+struct RobotTypeInfo {
+  std::string model;  ///< "pioneer3dx", "scout"; "2005" for a robot defined in the world file
+  MotionLimits limits;
+  Drive drive{};
+  bool operator==(const RobotTypeInfo&) const = default;
+};
+
+/// Description of a robot for its controller; constant during a run. Small, because a run may have very many robots.
 struct RobotInfo {
   std::string name;
-  std::string model;      ///< "pioneer3dx", "scout"; "2005" for a robot defined in the world file
-  std::string neighbour;  ///< the robot to which it forwards GOLD; empty for none
-  double radius_m = 0;    ///< radius of its circular footprint
+  SharedValue<RobotTypeInfo> type;      ///< shared by all robots of a model
+  OftenDefault<std::string> neighbour;  ///< the robot to which it forwards GOLD; empty for none
+  double radius_m = 0;                  ///< radius of its circular footprint
   double height_m = 0;
-  MotionLimits limits;
-  std::shared_ptr<const std::vector<SensorInfo>> sensors;  ///< shared by all robots of a model
+  std::shared_ptr<const std::vector<SensorInfo>> sensors;  ///< the same
   std::optional<std::uint32_t> color_rgb{};                ///< 0xRRGGBB, as in all views; nullopt if unknown
-  Drive drive{};
 };
 
 }  // namespace robosim

@@ -182,7 +182,7 @@ void encode(const Command& command, v1::Command& out) {
   out.set_led_color(command.led_color);
   out.set_lateral_mps(command.lateral_mps);
   if (command.camera_head == CameraHeadCommand{}) return out.clear_camera_head();
-  const auto& [aim, pan_radps, tilt_radps] = command.camera_head;
+  const auto& [aim, pan_radps, tilt_radps] = *command.camera_head;
   v1::CameraHead& head = *out.mutable_camera_head();
   head.set_pan_rad(aim.pan_rad);
   head.set_tilt_rad(aim.tilt_rad);
@@ -296,7 +296,7 @@ void decode(const v1::RobotReadings& in, const std::string& to, Readings& out) {
   out.laser_pan_rad = in.laser_pan_rad();
   out.is_too_far = in.is_too_far();
   out.inbox.clear();
-  for (const auto& message : in.inbox()) out.inbox.push_back({message.from(), to, message.text()});
+  for (const auto& message : in.inbox()) out.inbox.edit().push_back({message.from(), to, message.text()});
 }
 
 void checkPictures(const Readings& readings, const std::vector<SensorInfo>& sensors) {

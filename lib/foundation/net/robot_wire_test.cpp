@@ -53,7 +53,7 @@ Readings someReadings() {
   std::get<BeaconRanges>(readings.measurements[10]).range_m = {2.25f, 4.5f};
   readings.stalled = true;
   readings.laser_pan_rad = 0.5f;
-  readings.inbox = {{"Scout1", "Pioneer1", "GOLD"}};
+  readings.inbox.edit() = {{"Scout1", "Pioneer1", "GOLD"}};
   readings.is_too_far = true;
   return readings;
 }
@@ -211,11 +211,10 @@ RobotsWelcome someWelcome() {
   welcome.seed = 5;
   welcome.period_s = 0.1;
   for (const char* name : {"Pioneer1", "Pioneer2"}) {
-    RobotInfo info{name,   "pioneer3dx", "Scout1",
-                   0.25,   0.3,          {.speed_max_mps = 1, .turn_max_radps = 2, .emergency_decel_mps2 = 3},
-                   sensors};
-    info.limits.lateral_max_mps = 0.5;
-    info.drive = {DriveKind::tracked, 0.25, 0.5, 0.125, 1.5, 1.25, -0.1};
+    const MotionLimits limits{
+        .speed_max_mps = 1, .turn_max_radps = 2, .emergency_decel_mps2 = 3, .lateral_max_mps = 0.5};
+    const Drive drive{DriveKind::tracked, 0.25, 0.5, 0.125, 1.5, 1.25, -0.1};
+    RobotInfo info{name, RobotTypeInfo{"pioneer3dx", limits, drive}, "Scout1", 0.25, 0.3, sensors};
     welcome.robots.push_back({info, 3, "wander", 41, mrpt::math::TPose2D(1, 2, 0.5)});
   }
   welcome.all_robots = {"Pioneer1", "Pioneer2", "Scout1"};
@@ -229,10 +228,10 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   const RobotsWelcome decoded = decode(wire);
   ASSERT_EQ(decoded.robots.size(), 2u);
   EXPECT_EQ(decoded.robots[1].info.name, "Pioneer2");
-  EXPECT_EQ(decoded.robots[1].info.limits.turn_max_radps, 2);
-  EXPECT_EQ(decoded.robots[1].info.limits.emergency_decel_mps2, 3);
-  EXPECT_EQ(decoded.robots[1].info.limits.lateral_max_mps, 0.5);
-  EXPECT_EQ(decoded.robots[1].info.drive, (Drive{DriveKind::tracked, 0.25, 0.5, 0.125, 1.5, 1.25, -0.1}));
+  EXPECT_EQ(decoded.robots[1].info.type->limits.turn_max_radps, 2);
+  EXPECT_EQ(decoded.robots[1].info.type->limits.emergency_decel_mps2, 3);
+  EXPECT_EQ(decoded.robots[1].info.type->limits.lateral_max_mps, 0.5);
+  EXPECT_EQ(decoded.robots[1].info.type->drive, (Drive{DriveKind::tracked, 0.25, 0.5, 0.125, 1.5, 1.25, -0.1}));
   EXPECT_EQ(decoded.robots[1].controller, "wander");
   EXPECT_EQ(decoded.robots[1].next_answer, 41u);
   EXPECT_EQ(decoded.robots[1].world_from_start, mrpt::math::TPose2D(1, 2, 0.5));

@@ -171,18 +171,18 @@ Drive decode(const v1::Drive& in) {
 void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, v1::RobotDescription& out) {
   const RobotInfo& info = robot.info;
   out.set_name(info.name);
-  out.set_model(info.model);
-  out.set_neighbour(info.neighbour);
+  out.set_model(info.type->model);
+  out.set_neighbour(*info.neighbour);
   out.set_radius_m(info.radius_m);
   out.set_height_m(info.height_m);
-  out.set_speed_max_mps(info.limits.speed_max_mps);
-  out.set_turn_max_radps(info.limits.turn_max_radps);
-  out.set_accel_mps2(info.limits.accel_mps2);
-  out.set_decel_mps2(info.limits.decel_mps2);
-  out.set_turn_accel_radps2(info.limits.turn_accel_radps2);
-  out.set_emergency_decel_mps2(info.limits.emergency_decel_mps2);
-  if (info.drive != Drive()) encode(info.drive, *out.mutable_drive());
-  out.set_lateral_max_mps(info.limits.lateral_max_mps);
+  out.set_speed_max_mps(info.type->limits.speed_max_mps);
+  out.set_turn_max_radps(info.type->limits.turn_max_radps);
+  out.set_accel_mps2(info.type->limits.accel_mps2);
+  out.set_decel_mps2(info.type->limits.decel_mps2);
+  out.set_turn_accel_radps2(info.type->limits.turn_accel_radps2);
+  out.set_emergency_decel_mps2(info.type->limits.emergency_decel_mps2);
+  if (info.type->drive != Drive()) encode(info.type->drive, *out.mutable_drive());
+  out.set_lateral_max_mps(info.type->limits.lateral_max_mps);
   out.set_sensor_set(sensor_set);
   out.set_world_robot(robot.world_robot);
   out.set_controller(robot.controller);
@@ -213,8 +213,8 @@ RobotsWelcome::Robot decode(const v1::RobotDescription& in, const SensorSets& se
   checkFinite({in.start().x_m(), in.start().y_m(), in.start().heading_rad()});
   std::optional<mrpt::math::TPose2D> world_from_start;
   if (in.has_start()) world_from_start.emplace(in.start().x_m(), in.start().y_m(), in.start().heading_rad());
-  return {{in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()],
-           color_rgb, decode(in.drive())},
+  return {{in.name(), RobotTypeInfo{in.model(), limits, decode(in.drive())}, in.neighbour(), in.radius_m(),
+           in.height_m(), sets[in.sensor_set()], color_rgb},
           in.world_robot(),
           in.controller(),
           in.next_answer(),

@@ -256,9 +256,9 @@ TEST_F(MemberDecoderTest, ReadsStepsThatAreLargerThanAMember) {
     std::vector<Readings> readings;
     for (const auto& robot : robots) {
       readings.push_back(sampleReadings(robot, 3));
-      readings.back().inbox.assign(200, {"r0", robot.name, std::string(kMaxMessageBytes, 'x')});
+      readings.back().inbox.edit().assign(200, {"r0", robot.name, std::string(kMaxMessageBytes, 'x')});
     }
-    readings.back().inbox.resize(messages_of_last);
+    readings.back().inbox.edit().resize(messages_of_last);
     {
       RawlogWriter writer(file_, robots);
       for (std::uint64_t step = 0; step < 2; ++step) {

@@ -101,7 +101,7 @@ RobotStatusRecord::RobotStatusRecord(const RobotInfo& robot) : robot_(robot.name
     points_.push_back({points, templateOf(*points, points->AIN_float)});
   }
   auto status = rawDaq({robot_, kStatus, ""});
-  const std::size_t outputs = robot.drive.kind == DriveKind::omni ? kOutputsOmni : kOutputs;
+  const std::size_t outputs = robot.type->drive.kind == DriveKind::omni ? kOutputsOmni : kOutputs;
   has_camera_head_ = cameraHeadIn(*sensors_).has_value();
   status->AOUT_double.resize(outputs + (has_camera_head_ ? kHeadOutputs : 0));
   status->AIN_double.resize(kInputs);
@@ -147,7 +147,7 @@ void RobotStatusRecord::fillStatus(const Readings& readings, const Command& comm
   const std::size_t outputs = status.AOUT_double.size() - (has_camera_head_ ? kHeadOutputs : 0);
   if (outputs > kLateral) status.AOUT_double[kLateral] = command.lateral_mps;
   if (has_camera_head_) {
-    const auto& [aim, pan_radps, tilt_radps] = command.camera_head;
+    const auto& [aim, pan_radps, tilt_radps] = *command.camera_head;
     double* const head = status.AOUT_double.data() + outputs;
     head[kHeadPan] = aim.pan_rad;
     head[kHeadTilt] = aim.tilt_rad;
@@ -226,7 +226,7 @@ RobotStatus statusFrom(const CObservation& observation) {
   status.has_camera_head = has_camera_head;
   if (has_camera_head) {
     const double* const head = daq.AOUT_double.data() + outputs;
-    status.command.camera_head = {
+    status.command.camera_head = CameraHeadCommand{
         {head[kHeadPan], head[kHeadTilt], head[kHeadZoom]}, head[kHeadPanSpeed], head[kHeadTiltSpeed]};
   }
   status.stalled = daq.AIN_double[kStalled] != 0;

@@ -54,7 +54,7 @@ TEST(RobotStatusRecord, KeepsTheCommandOfACamerasHead) {
   Command aside = ahead;
   aside.lateral_mps = -0.5;
   for (const auto& [kind, command] : {std::pair(DriveKind::differential, ahead), std::pair(DriveKind::omni, aside)}) {
-    robot.drive.kind = kind;
+    robot.type.edit().drive.kind = kind;
     RobotStatusRecord record(robot);
     EXPECT_EQ(statusFrom(*record.of(readings, command).front()).command, command);
   }
@@ -71,7 +71,7 @@ TEST(RobotStatusRecord, WritesTheStatusOfEveryDriveByItsTemplateAsMrptDoes) {
     for (const auto& [kind, command] : {std::pair(DriveKind::differential, ahead), std::pair(DriveKind::omni, aside)}) {
       RobotInfo robot;
       robot.name = "rover";
-      robot.drive.kind = kind;
+      robot.type.edit().drive.kind = kind;
       robot.sensors = std::make_shared<const std::vector<SensorInfo>>(has_head ? std::vector<SensorInfo>{head}
                                                                                : std::vector<SensorInfo>{});
       RobotStatusRecord record(robot);

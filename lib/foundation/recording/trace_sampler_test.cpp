@@ -84,7 +84,7 @@ TEST_F(TraceSamplerTest, HasAPointWhereARobotStallsFindsGoldOrSendsAMessage) {
   step({1, 2, 0});
   commands_[0].activity = Activity::found;
   step({1, 2, 0});
-  readings_[1].inbox = {{"a", "b", "GOLD"}, {"c", "b", "of another"}};
+  readings_[1].inbox.edit() = {{"a", "b", "GOLD"}, {"c", "b", "of another"}};
   step({1, 2, 0});
   step({1, 2, 0});
   readings_[1].inbox.clear();

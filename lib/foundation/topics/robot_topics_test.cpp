@@ -312,7 +312,7 @@ TEST_F(RobotTopicsTest, PublishesThePanOfASensorThatTurns) {
 TEST_F(RobotTopicsTest, PublishesTruthCommandAndMessages) {
   truth = RobotTruth{{3, 4, 0}, {0.4, -0.5}};
   command = Command{.speed_mps = 0.5, .turn_radps = 0.25, .lateral_mps = 0.125};
-  readings.inbox = {{"Bob", "Ann 2", "GOLD \"1\""}};
+  readings.inbox.edit() = {{"Bob", "Ann 2", "GOLD \"1\""}};
   const auto messages = messagesOf({}, {});
   const auto odometry = messages.at<ros::Odometry>("/Ann_2/ground_truth");
   EXPECT_EQ(odometry.header.frame_id, "map");

@@ -18,7 +18,7 @@ void Environment::Impl::useModel(std::shared_ptr<const Model> other) {
   bodies = PlacedBodies(*model, objects());
   move_authorisation = MoveAuthorisation(ofRobots(fleet(), moverOf), model->world.bounds);
   object_mover = moverOfObjects();
-  message_router.setRobots(ofRobots(fleet(), nameOf));
+  message_router.setRobots(fleet().robots);
   robot_groups = RobotGroups(fleet(), model->period_s, is_sensed);
   limits = RepeatedValues(ofRobots(fleet(), limitsOf));
   drives = drivesOf(fleet());
@@ -26,7 +26,7 @@ void Environment::Impl::useModel(std::shared_ptr<const Model> other) {
   counted = everyRobot();
   paths.assign(count, Path());
   former_motion = formerMotionOf(fleet());
-  antenna_z_m = ofRobots(fleet(), antennaOf);
+  antenna_z_m = RepeatedValues(ofRobots(fleet(), antennaOf));
   noteGrippers();
   if (!is_shared) share = {everyRobot(), everyRobot()};
   if (images_of) images = images_of(*model);

@@ -98,7 +98,7 @@ TEST(AimedCamera, ContinuesFromASavedState) {
 
 TEST(AimedCamera, IsPartOfTheDigest) {
   const auto moved = twoRovers(), still = twoRovers();
-  moved->setCommand(1, {.camera_head = {{0, 0, 1.5}}});
+  moved->setCommand(1, {.camera_head = CameraHeadCommand{{0, 0, 1.5}}});
   EXPECT_EQ(moved->digest(), still->digest());
   moved->step();
   still->step();

@@ -17,7 +17,7 @@ inline void writeCommand(const Command& command, StateWriter& out) {
   out.addNumber(std::uint8_t{command.grip});
   out.addNumber(command.led_color);
   out.addNumber(command.lateral_mps);
-  const CameraHeadCommand& head = command.camera_head;
+  const CameraHeadCommand& head = *command.camera_head;
   const bool has_head = head != CameraHeadCommand{};
   out.addNumber(std::uint8_t{has_head});
   if (!has_head) return;
@@ -41,7 +41,7 @@ inline Command readCommand(StateReader& in) {
   requireContents(command.led_color <= kLedColorMax, "a colour of LEDs is no colour");
   command.lateral_mps = in.takeFinite();
   if (!in.takeFlag()) return command;
-  CameraHeadCommand& head = command.camera_head;
+  CameraHeadCommand& head = command.camera_head.edit();
   for (double* number : {&head.aim.pan_rad, &head.aim.tilt_rad, &head.aim.zoom, &head.pan_radps, &head.tilt_radps}) {
     *number = in.takeFinite();
   }

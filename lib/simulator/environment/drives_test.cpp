@@ -25,8 +25,8 @@ constexpr Drive kTrackedDrive{.kind = DriveKind::tracked, .track_factor = 2, .ic
 void giveDrive(Fleet& fleet, const Drive& drive) {
   FleetRobot& robot = fleet.robots.back();
   auto model = std::make_shared<RobotModel>(*robot.model);
-  model->drive = robot.info.drive = drive;
-  if (drive.kind == DriveKind::omni) model->limits.lateral_max_mps = robot.info.limits.lateral_max_mps = 1;
+  model->drive = robot.info.type.edit().drive = drive;
+  if (drive.kind == DriveKind::omni) model->limits.lateral_max_mps = robot.info.type.edit().limits.lateral_max_mps = 1;
   robot.model = model;
 }
 

@@ -30,7 +30,7 @@ void Environment::restart(const State& start) { impl_->restart(start); }
 
 void Environment::setCommand(std::size_t robot, const Command& command) { impl_->setCommand(robot, command); }
 
-const std::vector<std::string>& Environment::robotNames() const { return impl_->message_router.names(); }
+const std::vector<std::string>& Environment::robotNames() const { return impl_->message_router.names().list(); }
 
 void Environment::send(std::size_t from, const std::string& to, const std::string& text) {
   impl_->message_router.send(from, to, text, impl_->state.outboxes[from]);

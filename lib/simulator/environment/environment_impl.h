@@ -44,12 +44,11 @@ struct Environment::Impl {
   static PushingDisc pushingDiscOf(const FleetRobot& robot) {
     return {robot.info.radius_m, robot.body().heights(), robot.model->push_max_n};
   }
-  static std::string nameOf(const FleetRobot& robot) { return robot.info.name; }
-  static MotionLimits limitsOf(const FleetRobot& robot) { return robot.info.limits; }
+  static MotionLimits limitsOf(const FleetRobot& robot) { return robot.info.type->limits; }
   /// By robot; empty if all robots have a differential drive.
   static std::vector<Drive> drivesOf(const Fleet& fleet) {
     if (!hasOtherDrives(fleet)) return {};
-    return ofRobots(fleet, [](const FleetRobot& robot) { return robot.info.drive; });
+    return ofRobots(fleet, [](const FleetRobot& robot) { return robot.info.type->drive; });
   }
   static double antennaOf(const FleetRobot& robot) { return robot.body().heights().z_max_m; }
   /// Memory for the motion of the step before the last; empty if no sensor uses it.
@@ -94,8 +93,8 @@ struct Environment::Impl {
   KnownRobots known;
   RobotRange counted;  ///< known robots whose stalls are counted
   std::vector<Path> paths;
-  std::vector<Motion> former_motion;  ///< Snapshot::former_motion
-  std::vector<double> antenna_z_m;    ///< by robot
+  std::vector<Motion> former_motion;   ///< Snapshot::former_motion
+  RepeatedValues<double> antenna_z_m;  ///< by robot
   std::uint64_t pose_changes = 0;
   bool has_absent_robots = false;
   bool may_have_messages = true;       ///< in any inbox; false: only in those of MessageRouter::receivers()
@@ -115,7 +114,7 @@ struct Environment::Impl {
         scene(bodies.scene()),
         move_authorisation(ofRobots(fleet(), moverOf), model->world.bounds),
         object_mover(moverOfObjects()),
-        message_router(ofRobots(fleet(), nameOf), model->world.communication),
+        message_router(fleet().robots, model->world.communication),
         robot_groups(fleet(), model->period_s),
         limits(ofRobots(fleet(), limitsOf)),
         drives(drivesOf(fleet())),
@@ -511,7 +510,7 @@ struct Environment::Impl {
     kept.lateral_mps = finiteOrZero(command.lateral_mps);
     if (!std::isfinite(command.laser_pan_rad)) kept.laser_pan_rad = 0;
     kept.led_color &= kLedColorMax;
-    if (!command.camera_head.isFinite()) kept.camera_head = {};
+    if (!command.camera_head->isFinite()) kept.camera_head = {};
   }
 
   void restore(const State& saved) {

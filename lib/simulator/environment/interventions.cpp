@@ -136,12 +136,7 @@ struct Environment::Impl::ApplyChange {
  private:
   const std::vector<WorldObject>& objects() const { return of.objects(); }
 
-  std::optional<std::size_t> robotNamed(const std::string& name) const {
-    const auto& names = of.message_router.names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - names.begin());
-  }
+  std::optional<std::size_t> robotNamed(const std::string& name) const { return of.message_router.names().find(name); }
   std::optional<std::size_t> objectNamed(const std::string& name) const {
     const auto found = std::find_if(objects().begin(), objects().end(),
                                     [&](const WorldObject& object) { return object.name == name; });
@@ -215,7 +210,7 @@ struct Environment::Impl::ApplyChange {
     return "robot " + inQuotes(name) + " is not in the world at present; place it first";
   }
   std::string unknown(const std::string& name, const std::string& what) const {
-    std::vector<std::string> names = of.message_router.names();
+    std::vector<std::string> names = of.message_router.names().list();
     for (const auto& object : objects()) names.push_back(object.name);
     std::erase(names, name);  // of another kind
     return inQuotes(name) + " is not the name of " + what + (name.empty() ? "" : didYouMean(name, names));

@@ -1,7 +1,6 @@
 #include "environment/message_router.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -48,26 +47,21 @@ struct MessageRouter::Delivery {
   }
 };
 
-MessageRouter::MessageRouter(std::vector<std::string> names, const Communication& communication)
-    : communication_(communication) {
-  setRobots(std::move(names));
+MessageRouter::MessageRouter(std::span<const FleetRobot> robots, const Communication& communication)
+    : names_(robots), communication_(communication) {
+  channel_.setRobots(robots.size());
 }
 
-void MessageRouter::setRobots(std::vector<std::string> names) {
-  names_ = std::move(names);
+void MessageRouter::setRobots(std::span<const FleetRobot> robots) {
+  names_.setRobots(robots);
   limits_.clear();
   receivers_.clear();
-  channel_.setRobots(names_.size());
-  by_name_.resize(names_.size());
-  std::iota(by_name_.begin(), by_name_.end(), 0U);
-  std::sort(by_name_.begin(), by_name_.end(), [&](auto a, auto b) { return names_[a] < names_[b]; });
+  channel_.setRobots(robots.size());
 }
 
 void MessageRouter::send(std::size_t from, const std::string& to, const std::string& text, Rare<Outbox>& outbox) const {
-  const auto found =
-      std::lower_bound(by_name_.begin(), by_name_.end(), to,
-                       [&](std::uint32_t robot, const std::string& name) { return names_[robot] < name; });
-  if (found == by_name_.end() || names_[*found] != to) {
+  const auto found = names_.find(to);
+  if (!found) {
     throw std::invalid_argument("a message from '" + names_[from] + "' to '" + to +
                                 "': there is no robot of that name");
   }
@@ -108,7 +102,7 @@ void MessageRouter::receive(std::uint32_t from, std::uint32_t to, Text&& text, D
     ++delivery.counts.dropped;
     return;
   }
-  auto& inbox = delivery.readings[to].inbox;
+  std::vector<RobotMessage>& inbox = delivery.readings[to].inbox.edit();
   if (inbox.empty()) receivers_.push_back(to);
   inbox.push_back({names_[from], names_[to], std::forward<Text>(text)});
   ++delivery.counts.delivered;

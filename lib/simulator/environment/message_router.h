@@ -9,6 +9,8 @@
 #include "base/rare.h"
 #include "base/sim_time.h"
 #include "environment/radio_channel.h"
+#include "environment/repeated_values.h"
+#include "environment/robot_names.h"
 #include "hardware/command.h"
 #include "hardware/inbox_limit.h"
 #include "hardware/readings.h"
@@ -78,18 +80,18 @@ struct MessageCounts {
 /// (Communication::delay_s, rate_hz). The messages are in the outboxes and the queue of its caller.
 class MessageRouter {
  public:
-  MessageRouter(std::vector<std::string> names, const Communication& communication);
+  /// @param robots must outlive this object
+  MessageRouter(std::span<const FleetRobot> robots, const Communication& communication);
   MessageRouter(const MessageRouter&) = delete;  // channel_ refers to communication_
   MessageRouter& operator=(const MessageRouter&) = delete;
 
   /// Replaces the robots; those with the same index remain the same.
-  void setRobots(std::vector<std::string> names);
+  void setRobots(std::span<const FleetRobot> robots);
 
   /// Replaces limits and errors of the radio; messages in flight arrive when they were to arrive before.
   void setCommunication(const Communication& communication) { communication_ = communication; }
 
-  /// By robot.
-  const std::vector<std::string>& names() const { return names_; }
+  const RobotNames& names() const { return names_; }
 
   /// Queues a message in the outbox of its sender `from`. May be called for different senders from different threads.
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long
@@ -106,7 +108,7 @@ class MessageRouter {
   struct Robots {
     const Scene& scene;  ///< whose moving solids are the robots; a broadcast of limited range finds its receivers in it
     std::span<const mrpt::math::TPose2D> world_from_robot;
-    std::span<const double> antenna_z_m;  ///< heights of the antennas
+    const RepeatedValues<double>& antenna_z_m;  ///< heights of the antennas
     std::span<const Activity> activity;
     /// 0: the robot has no outbox, 1: perhaps. Updated by deliver().
     std::span<std::uint8_t> may_send;
@@ -144,8 +146,7 @@ class MessageRouter {
   template <typename Text>
   void receive(std::uint32_t from, std::uint32_t to, Text&& text, Delivery& delivery);
 
-  std::vector<std::string> names_;
-  std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
+  RobotNames names_;
   Communication communication_;
   RadioChannel channel_{communication_};
   /// By receiver; unused ones between two calls of deliver(), and empty until the first message arrives.

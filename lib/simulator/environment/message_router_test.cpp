@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "environment/testing/named_robots.h"
+
 namespace robosim {
 namespace {
 
@@ -14,17 +16,18 @@ struct Fixture {
   std::vector<Rare<Outbox>> outboxes = std::vector<Rare<Outbox>>(3);
   std::vector<Activity> activity{Activity::active, Activity::active, Activity::active};
   SimTime time;
-  std::vector<double> antenna_z_m{0.3, 0.3, 0.3};
+  RepeatedValues<double> antenna_z_m{std::vector{0.3, 0.3, 0.3}};
   std::vector<std::uint8_t> may_send{0, 0, 0};
   std::vector<MessageInFlight> in_flight;
   Scene scene{{}, 3, {-10, 110, -10, 10}};
   std::size_t dropped = 0;  ///< in the last step
   MessageLosses lost;       ///< in the last step
   std::uint64_t seed;
+  std::vector<FleetRobot> robots = namedRobots({"a", "b", "c"});
   MessageRouter message_router;
 
   explicit Fixture(const Communication& communication = {}, std::uint64_t the_seed = 1)
-      : seed(the_seed), message_router({"a", "b", "c"}, communication) {}
+      : seed(the_seed), message_router(robots, communication) {}
   void send(std::size_t from, const std::string& to, const std::string& text) {
     message_router.send(from, to, text, outboxes[from]);
     may_send[from] = 1;

@@ -121,12 +121,12 @@ void add(Digest& digest, const FleetRobot& robot) {
   add(digest, robot.info.name);
   add(digest, robot.world_from_start);
   add(digest, robot.body());
-  const MotionLimits& limits = robot.info.limits;
+  const MotionLimits& limits = robot.info.type->limits;
   for (const double value : {robot.info.radius_m, limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
                              limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2}) {
     digest.add(value);
   }
-  if (const Drive& drive = robot.info.drive; drive != Drive()) {
+  if (const Drive& drive = robot.info.type->drive; drive != Drive()) {
     digest.add(static_cast<std::uint64_t>(drive.kind));
     for (const double value : {limits.lateral_max_mps, drive.wheelbase_m, drive.steering_max_rad,
                                drive.steering_rate_radps, drive.track_factor, drive.assumed_factor, drive.icr_x_m}) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "environment/message_router.h"
+#include "environment/testing/named_robots.h"
 
 namespace robosim {
 namespace {
@@ -15,18 +16,19 @@ Solid wallAt(double x_m, double height_m = 1) { return {OrientedBox::from({x_m, 
 struct TwoRobots {
   Scene scene;
   std::vector<mrpt::math::TPose2D> poses{{0, 0, 0}, {10, 0, 0}};
-  std::vector<double> antenna_z_m{0.3, 0.3};
+  RepeatedValues<double> antenna_z_m{std::vector{0.3, 0.3}};
   std::vector<Activity> activity{Activity::active, Activity::active};
   std::vector<Rare<Outbox>> outboxes = std::vector<Rare<Outbox>>(2);
   std::vector<std::uint8_t> may_send{0, 0};
   std::vector<MessageInFlight> in_flight;
   std::vector<Readings> readings = std::vector<Readings>(2);
   SimTime time;
+  std::vector<FleetRobot> robots = namedRobots({"a", "b"});
   MessageRouter router;
   MessageCounts counts;
 
   explicit TwoRobots(const Communication& communication, const std::vector<Solid>& solids = {})
-      : scene(solids, 0, {-20, 20, -20, 20}), router({"a", "b"}, communication) {}
+      : scene(solids, 0, {-20, 20, -20, 20}), router(robots, communication) {}
   void send(const std::string& text) {
     router.send(0, "b", text, outboxes[0]);
     may_send[0] = 1;

@@ -150,7 +150,7 @@ TEST(RaycastCamera, TurnsAndZoomsWithItsHead) {
   // Panned by 30° to the right and zoomed twice, it shows what a fixed camera does that is mounted so.
   const std::string head = std::string(kEye) + R"(><ptz pan_degps="3000" zoom_per_s="900"/></camera>)";
   const auto environment = eyesIn(worldBeforeEye({1, 0, 0}), head, {{0, 0, 0}});
-  environment->setCommand(0, {.camera_head = {{-M_PI / 6, 0, 2}}});
+  environment->setCommand(0, {.camera_head = CameraHeadCommand{{-M_PI / 6, 0, 2}}});
   environment->step();
   const CameraInfo zoomed_camera = zoomed({64, 64, M_PI / 2, 10}, 2);
   const auto fixed = eyesIn(

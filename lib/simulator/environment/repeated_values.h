@@ -7,20 +7,22 @@
 namespace robosim {
 
 /// An array that does not change and of whose values many are equal, such as the limits of robots: it keeps an index
-/// for each and the values once, most of which then stay in the processor's cache.
+/// for each and the values once, most of which then stay in the processor's cache. If all are equal, there are no
+/// indices.
 template <typename Value>
 class RepeatedValues {
  public:
   RepeatedValues() = default;
-  explicit RepeatedValues(const std::vector<Value>& all) {
+  explicit RepeatedValues(const std::vector<Value>& all) : size_(all.size()) {
     of_.reserve(all.size());
     for (const Value& value : all) of_.push_back(indexOf(value));
     values_.shrink_to_fit();
+    if (values_.size() == 1) of_ = std::vector<std::uint32_t>();
   }
 
-  std::size_t size() const { return of_.size(); }
-  bool empty() const { return of_.empty(); }
-  const Value& operator[](std::size_t i) const { return values_[of_[i]]; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const Value& operator[](std::size_t i) const { return of_.empty() ? values_.front() : values_[of_[i]]; }
   /// Each value of the array at least once.
   const std::vector<Value>& values() const { return values_; }
 
@@ -35,6 +37,7 @@ class RepeatedValues {
     return index;
   }
 
+  std::size_t size_ = 0;
   std::vector<std::uint32_t> of_;
   std::vector<Value> values_;
 };

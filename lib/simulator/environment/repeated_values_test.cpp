@@ -17,6 +17,14 @@ TEST(RepeatedValues, KeepsEqualValuesOnce) {
   EXPECT_EQ(&repeated[0], &repeated[3]);
 }
 
+TEST(RepeatedValues, IsAsLargeForEqualValues) {
+  const RepeatedValues<double> repeated({4, 4, 4});
+  ASSERT_EQ(repeated.size(), 3U);
+  EXPECT_FALSE(repeated.empty());
+  EXPECT_EQ(&repeated[2], &repeated[0]);
+  EXPECT_EQ(repeated[2], 4);
+}
+
 TEST(RepeatedValues, HasAllOfManyValues) {
   std::vector<int> all;
   for (int i = 0; i < 1000; ++i) all.push_back(i % 300);

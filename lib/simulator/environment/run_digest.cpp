@@ -94,7 +94,7 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
   // Nothing is added for a run without LEDs and checkWin().
   if (const auto color = state.commands[i].led_color; color != 0) bytes.add(&color, sizeof color);
   if (state.readings[i].is_too_far) bytes.add("too far");
-  if (!state.readings[i].winner.empty()) bytes.add(state.readings[i].winner);
+  if (!state.readings[i].winner.empty()) bytes.add(*state.readings[i].winner);
 }
 
 }  // namespace

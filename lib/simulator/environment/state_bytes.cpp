@@ -159,10 +159,10 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
                   "a robot is too far away");
   state.speed_mps[i] = in.takeFinite();
   state.turn_radps[i] = in.takeFinite();
-  requireContents(
-      std::abs(state.speed_mps[i]) <= info.limits.speed_max_mps &&
-          std::abs(state.turn_radps[i]) <= info.limits.turn_max_radps * std::max(1.0, info.drive.turnShare()),
-      "a robot is faster than its limits");
+  requireContents(std::abs(state.speed_mps[i]) <= info.type->limits.speed_max_mps &&
+                      std::abs(state.turn_radps[i]) <=
+                          info.type->limits.turn_max_radps * std::max(1.0, info.type->drive.turnShare()),
+                  "a robot is faster than its limits");
   state.last_motion[i].length_m = in.takeFinite();
   state.last_motion[i].turn_rad = in.takeFinite();
   state.driven_m[i] = in.takeFinite();
@@ -170,8 +170,8 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   if (!state.drives.empty()) {
     state.drives[i].lateral_mps = in.takeFinite();
     state.drives[i].steering_rad = in.takeFinite();
-    requireContents(std::abs(state.drives[i].lateral_mps) <= groundSpeedMax(info.drive, info.limits) &&
-                        std::abs(state.drives[i].steering_rad) <= info.drive.steering_max_rad,
+    requireContents(std::abs(state.drives[i].lateral_mps) <= groundSpeedMax(info.type->drive, info.type->limits) &&
+                        std::abs(state.drives[i].steering_rad) <= info.type->drive.steering_max_rad,
                     "a robot is faster than its limits");
   }
   state.stalled[i] = in.takeFlag() ? 1 : 0;
@@ -200,7 +200,7 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   const auto received = in.takeNumber<std::uint32_t>();
   requireContents(received <= InboxLimit::kMaxMessages, "a robot has received too many messages");
   for (std::uint32_t k = 0; k < received; ++k) {
-    RobotMessage& message = readings.inbox.emplace_back();
+    RobotMessage& message = readings.inbox.edit().emplace_back();
     message.from = in.takeText(InboxLimit::kMaxBytes);
     message.to = info.name;
     message.text = in.takeText(kMaxMessageBytes);
@@ -306,7 +306,7 @@ std::shared_ptr<const Model> readAdditions(const Model& model, StateReader& in) 
   const auto* robot = grown->fleet.robots.data() + (grown->fleet.robots.size() - count);
   for (const std::uint64_t digest : digests) {
     if (digestOf(*robot) != digest) {
-      throw ConfigError("the robot type " + robot->info.model +
+      throw ConfigError("the robot type " + robot->info.type->model +
                         " is not that of the run that saved the state; use its " + "robot types");
     }
     ++robot;

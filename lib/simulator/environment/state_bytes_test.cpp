@@ -189,7 +189,7 @@ TEST(StateBytes, OfAnotherModelAreRefused) {
   EXPECT_TRUE(is_refused_in([](World& w) { w.objects[0].body.world_from_body.x += 1e-9; }));
   EXPECT_TRUE(is_refused_in([](World& w) { addWall(w, 2, 2, 0.1, 0.1); }));
   EXPECT_TRUE(is_refused_after([](Model& m) { m.fleet.robots[1].info.name = "c"; }));
-  EXPECT_TRUE(is_refused_after([](Model& m) { m.fleet.robots[1].info.limits.accel_mps2 *= 2; }));
+  EXPECT_TRUE(is_refused_after([](Model& m) { m.fleet.robots[1].info.type.edit().limits.accel_mps2 *= 2; }));
   EXPECT_TRUE(is_refused_after([](Model& m) { m.fleet.robots.pop_back(); }));
   EXPECT_TRUE(is_refused_after([](Model& m) {
     auto noisier = *m.fleet.robots[1].model;

@@ -169,7 +169,7 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { s.commands[1].emergency_stop = !s.commands[1].emergency_stop; },
       [](State& s) { s.commands[1].grip = !s.commands[1].grip; },
       [](State& s) { s.commands[1].led_color ^= 0xff0000; },
-      [](State& s) { s.commands[1].camera_head.aim.tilt_rad += 1; },
+      [](State& s) { s.commands[1].camera_head.edit().aim.tilt_rad += 1; },
       [](State& s) { s.closed_grippers.push_back({.robot = 1, .object = {}}); },
       [](State& s) {
         s.outboxes[1].emplace().messages.push_back({0, "x"});
@@ -180,7 +180,7 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { ++s.outboxes[1].emplace().surplus; },
       [](State& s) { s.win_requests[1] ^= 1; },
       [](State& s) {
-        s.readings[1].inbox.push_back({"r0", "r1", "x"});
+        s.readings[1].inbox.edit().push_back({"r0", "r1", "x"});
       },
       [](State& s) { std::get<Echoes>(s.readings[1].measurements[0])[0].range_m += 1; },
       [](State& s) {
@@ -245,7 +245,7 @@ TEST(State, ReplacesCommandsThatAreNotFiniteByZero) {
   const double nan = std::nan("");
   run->setCommand(0, {.speed_mps = nan, .turn_radps = -1 / 0.0, .laser_pan_rad = static_cast<float>(nan)});
   EXPECT_EQ(run->state().commands[0], Command{});
-  run->setCommand(0, {.camera_head = {{.tilt_rad = nan}, 0.5}});
+  run->setCommand(0, {.camera_head = CameraHeadCommand{{.tilt_rad = nan}, 0.5}});
   EXPECT_EQ(run->state().commands[0], Command{});
 }
 

@@ -70,7 +70,7 @@ TEST(WorldChanges, AddRobotsUnderFreeNames) {
   const LoadedWorld world = changed(robots({"pioneer3dx@-2,1.5,90", "scout@3,0"}));
   ASSERT_EQ(world.fleet.robots.size(), 2u);
   EXPECT_EQ(world.fleet.robots[0].info.name, "Robot2") << "the pillar is named Robot1";
-  EXPECT_EQ(world.fleet.robots[0].info.model, "pioneer3dx");
+  EXPECT_EQ(world.fleet.robots[0].info.type->model, "pioneer3dx");
   EXPECT_EQ(world.fleet.robots[0].world_from_start, mrpt::math::TPose2D(-2, 1.5, M_PI / 2));
   EXPECT_EQ(world.fleet.robots[1].info.name, "Robot3");
 }
@@ -105,7 +105,7 @@ TEST(WorldChanges, PlaceRandomRobotsFreelyByTheSeed) {
 
 Lines neighboursOf(const LoadedWorld& world) {
   Lines names;
-  for (const auto& robot : world.fleet.robots) names.push_back(robot.info.name + ">" + robot.info.neighbour);
+  for (const auto& robot : world.fleet.robots) names.push_back(robot.info.name + ">" + *robot.info.neighbour);
   return names;
 }
 
@@ -147,7 +147,7 @@ TEST(WorldChanges, ReplaceTheRobotsByATeamOfTheFirstOnesKind) {
   ASSERT_EQ(team.fleet.robots.size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(team.world.robots[i].model, "scout");
-    EXPECT_EQ(team.fleet.robots[i].controller, "wander");
+    EXPECT_EQ(*team.fleet.robots[i].controller, "wander");
     EXPECT_EQ(team.fleet.robots[i].info.neighbour, team.fleet.robots[(i + 1) % 12].info.name);
   }
   changes.team = 1;
@@ -201,7 +201,7 @@ TEST(WorldChanges, MoveOnlyTheStartPoses) {
   changes.has_random_starts = true;
   const LoadedWorld one = changed(changes, 1, square(robot)), other = changed(changes, 2, square(robot));
   EXPECT_NE(one.fleet.robots[0].world_from_start, other.fleet.robots[0].world_from_start);
-  EXPECT_EQ(one.fleet.robots[0].controller, "wander");
+  EXPECT_EQ(*one.fleet.robots[0].controller, "wander");
   EXPECT_EQ(one.world.objects, other.world.objects);
 }
 

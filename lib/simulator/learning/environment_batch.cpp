@@ -93,8 +93,9 @@ struct EnvironmentBatch::Impl {
   /// Actions have a lateral speed if any agent has one.
   static std::size_t actionSizeOf(const Fleet& fleet, std::size_t agents) {
     const auto end = fleet.robots.begin() + static_cast<std::ptrdiff_t>(agents);
-    const bool is_any_omni = std::any_of(
-        fleet.robots.begin(), end, [](const FleetRobot& robot) { return robot.info.drive.kind == DriveKind::omni; });
+    const bool is_any_omni = std::any_of(fleet.robots.begin(), end, [](const FleetRobot& robot) {
+      return robot.info.type->drive.kind == DriveKind::omni;
+    });
     return is_any_omni ? 3 : 2;
   }
 
@@ -200,7 +201,7 @@ struct EnvironmentBatch::Impl {
     const RewardWeights& weights = options.reward;
     for (std::size_t agent = 0; agent < agents.count(); ++agent) {
       const float* action = &actions[(i * agents.count() + agent) * action_size];
-      const MotionLimits& limit = episode.world->model->fleet.robots[agent].info.limits;
+      const MotionLimits& limit = episode.world->model->fleet.robots[agent].info.type->limits;
       Command command;
       command.speed_mps = std::clamp(static_cast<double>(action[0]), -1.0, 1.0) * limit.speed_max_mps;
       command.turn_radps = std::clamp(static_cast<double>(action[1]), -1.0, 1.0) * limit.turn_max_radps;

@@ -105,8 +105,8 @@ TEST(EnvironmentBatch, WritesThePicturesOfRaycastCameras) {
 TEST(EnvironmentBatch, HasALateralSpeedInTheActionsOfOmnidirectionalAgents) {
   LoadedWorld world = worldWithGold();
   FleetRobot& robot = world.fleet.robots[0];
-  robot.info.drive.kind = DriveKind::omni;
-  robot.info.limits.lateral_max_mps = 0.8;
+  robot.info.type.edit().drive.kind = DriveKind::omni;
+  robot.info.type.edit().limits.lateral_max_mps = 0.8;
   EnvironmentBatch batch(worldsOf(std::move(world)), poseOptions(1));
   EXPECT_EQ(batch.actionSize(), 3u);
   Arrays arrays(batch);

@@ -34,9 +34,9 @@ TEST(AddedRobot, IsTheLastAndSharesTheModelOfItsType) {
   EXPECT_EQ(after.robots[2].model, before.robots[0].model);
   EXPECT_EQ(after.robots[2].info.name, "C");
   EXPECT_EQ(after.robots[2].info.neighbour, "A");
-  EXPECT_EQ(after.robots[2].controller, "wander");
+  EXPECT_EQ(*after.robots[2].controller, "wander");
   EXPECT_NEAR(after.robots[2].world_from_start.phi, 7 - 2 * M_PI, 1e-12);
-  EXPECT_EQ(after.robots[3].info.model, "pioneer3dx");
+  EXPECT_EQ(after.robots[3].info.type->model, "pioneer3dx");
   EXPECT_EQ(withRobot(after, {"E", "pioneer3dx", {}}).robots[4].model, after.robots[3].model);
 }
 

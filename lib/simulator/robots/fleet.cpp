@@ -43,6 +43,12 @@ class ControllerFaults {
   std::unordered_map<std::string, std::string> faults_;
 };
 
+/// Adds a robot, which shares the name of its controller with the one before.
+void add(FleetRobot robot, std::vector<FleetRobot>& robots) {
+  if (!robots.empty() && robot.controller == robots.back().controller) robot.controller = robots.back().controller;
+  robots.push_back(std::move(robot));
+}
+
 RobotStart startOf(const RobotPlacement& placement, const FleetRobot& robot) {
   const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
   const Body body = robot.body();
@@ -61,13 +67,11 @@ Body FleetRobot::body() const {
 FleetRobot placedRobot(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model) {
   FleetRobot robot;
   robot.info = {.name = placement.name,
-                .model = model->name,
+                .type = model->type_info,
                 .neighbour = placement.neighbour,
                 .radius_m = model->radius_m,
                 .height_m = model->body.height_m,
-                .limits = model->limits,
-                .sensors = model->sensor_infos,
-                .drive = model->drive};
+                .sensors = model->sensor_infos};
   robot.world_from_start = placement.world_from_robot;
   robot.world_from_start.phi = mrpt::math::wrapToPi(robot.world_from_start.phi);
   robot.own_body = placement.body;
@@ -100,7 +104,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
                  "robot '" + placement.name + "': with it " + excess);
       break;
     }
-    fleet.robots.push_back(placedRobot(placement, std::move(model)));
+    add(placedRobot(placement, std::move(model)), fleet.robots);
     starts.push_back(startOf(placement, fleet.robots.back()));
   }
   const bool has_all = fleet.robots.size() == world.robots.size();
@@ -148,7 +152,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
   fleet.robots.reserve(world.robots.size());
   starts.reserve(world.robots.size());
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
-    fleet.robots.push_back(placedRobot(world.robots[i], alike.robots[i].model));
+    add(placedRobot(world.robots[i], alike.robots[i].model), fleet.robots);
     starts.push_back(startOf(world.robots[i], fleet.robots.back()));
   }
   setRobotColors(world, fleet);
@@ -159,7 +163,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
 
 bool hasOtherDrives(const Fleet& fleet) {
   return std::any_of(fleet.robots.begin(), fleet.robots.end(),
-                     [](const FleetRobot& robot) { return robot.info.drive.kind != DriveKind::differential; });
+                     [](const FleetRobot& robot) { return robot.info.type->drive.kind != DriveKind::differential; });
 }
 
 bool hasCamera(const Fleet& fleet) {

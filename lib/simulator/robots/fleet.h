@@ -10,6 +10,7 @@
 
 #include "base/error_list.h"
 #include "base/rare.h"
+#include "base/shared_value.h"
 #include "robots/robot_model.h"
 #include "robots/robot_types.h"
 #include "world/world.h"
@@ -23,7 +24,7 @@ struct FleetRobot {
   mrpt::math::TPose2D world_from_start;
   std::array<float, 3> color = Body().color;  ///< in all views
   Rare<Body> own_body = {};                   ///< instead of the model's; its pose and colour have no effect
-  std::string controller;                     ///< as TypeChoice::text(); empty: the program's default
+  SharedValue<std::string> controller;        ///< as TypeChoice::text(); empty: the program's default
 
   /// At the start, in its colour; other robots' sensors detect this shape.
   Body body() const;

@@ -80,16 +80,16 @@ TEST(Fleet, KeepsTheWorldsOrderOfRobots) {
   ASSERT_EQ(fleet.robots.size(), 2u);
   const FleetRobot& b = fleet.robots[0];
   EXPECT_EQ(b.info.name, "B");
-  EXPECT_EQ(b.info.model, "scout");
+  EXPECT_EQ(b.info.type->model, "scout");
   EXPECT_EQ(b.info.radius_m, 0.19);
-  EXPECT_EQ(b.info.limits, b.model->limits);
+  EXPECT_EQ(b.info.type->limits, b.model->limits);
   EXPECT_EQ(b.info.sensors, b.model->sensor_infos);
   EXPECT_NEAR(b.world_from_start.phi, 7 - 2 * M_PI, 1e-12);
   EXPECT_EQ(b.body().world_from_body, b.world_from_start);
   EXPECT_EQ(b.body().color, (std::array<float, 3>{1, 0, 0}));
-  EXPECT_EQ(b.controller, "wander");
+  EXPECT_EQ(*b.controller, "wander");
   EXPECT_EQ(fleet.robots[1].info.neighbour, "B");
-  EXPECT_EQ(fleet.robots[1].controller, "");
+  EXPECT_EQ(*fleet.robots[1].controller, "");
 }
 
 TEST(Fleet, EqualRobotsShareOneModel) {
@@ -119,7 +119,7 @@ TEST(Fleet, RobotsOfBodiesOfDifferentHeightShareNoModel) {
 TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
   const Fleet fleet = fleetOf(worldOf({of2005("A", 10, "<sensor><type>heat</type><range>15</range></sensor>")}, "0.1"));
   const FleetRobot& robot = fleet.robots[0];
-  EXPECT_EQ(robot.info.model, "2005");
+  EXPECT_EQ(robot.info.type->model, "2005");
   EXPECT_DOUBLE_EQ(robot.info.radius_m, 0.3);
   EXPECT_DOUBLE_EQ(robot.info.height_m, 1);
   EXPECT_DOUBLE_EQ(robot.world_from_start.x, 1);

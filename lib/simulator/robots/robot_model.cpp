@@ -202,14 +202,17 @@ void mountDescribed(const RobotDescription& description, Mounted& mounted, Error
   if (!has_odometry) mounted.add(makeOdometry({}), false);
 }
 
-void describeSensors(Mounted& mounted) {
+/// Makes what the robots' RobotInfo share, when all else is known.
+void makeSharedInfo(Mounted& mounted) {
   std::vector<SensorInfo> infos;
   for (const auto& sensor : mounted.model.sensors) {
     infos.push_back(sensor->info());
     if (const GripperOptions* gripper = gripperOptionsOf(*sensor)) mounted.model.gripper = *gripper;
   }
   makeLabelsUnique(infos, mounted.labelled);
-  mounted.model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
+  RobotModel& model = mounted.model;
+  model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
+  model.type_info = RobotTypeInfo{model.name, model.limits, model.drive};
 }
 
 void setBody(const Body& body, RobotModel& model) {
@@ -260,7 +263,7 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
     model.sensors_digest = digestOf(sensorsOf(type));
   }
   root.finish();
-  describeSensors(mounted);
+  makeSharedInfo(mounted);
   return model;
 }
 
@@ -276,7 +279,7 @@ RobotModel modelOf2005(const RobotDescription& description, ErrorList& errors) {
   readDescribedDrive(description, model, errors);
   Mounted mounted(model);
   mountDescribed(description, mounted, errors);
-  describeSensors(mounted);
+  makeSharedInfo(mounted);
   return model;
 }
 

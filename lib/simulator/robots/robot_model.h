@@ -38,6 +38,7 @@ struct RobotModel {
   double push_max_n = kPushMax_n;  ///< force with which it pushes objects; >= 0, 0: none moves
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::shared_ptr<const std::vector<SensorInfo>> sensor_infos;  ///< of `sensors`, with unique labels
+  SharedValue<RobotTypeInfo> type_info;                         ///< of name, limits and drive
   std::optional<GripperOptions> gripper;                        ///< of the one among `sensors`
   /// Hash of the elements that describe the sensors, and thus of all their options; 0 for a model not read from a file.
   std::uint64_t sensors_digest = 0;

@@ -13,14 +13,15 @@ namespace robosim {
 struct BeamHits {
   std::vector<double> distance_m;  ///< infinite without a hit
   std::vector<BodyId> body;
-  std::vector<Ray> moved;  ///< world frame; empty if all beams were cast from the pose below
+  bool is_moved = false;   ///< otherwise all beams were cast from the pose below
+  std::vector<Ray> moved;  ///< world frame; memory is kept, and may be longer than the scan
   const PlanarBeams* beams = nullptr;
   PlanarTransform frame, panned;  ///< of the robot, and turned by the pan angle
 
   void reset(const PlanarBeams& cast, const PlanarTransform& world_from_robot, double pan_rad) {
     distance_m.assign(cast.size(), std::numeric_limits<double>::infinity());
     body.assign(cast.size(), kNoBody);
-    moved.clear();
+    is_moved = false;
     beams = &cast;
     frame = world_from_robot;
     panned = PlanarTransform(frame, pan_rad);
@@ -32,7 +33,7 @@ struct BeamHits {
   }
   /// The beam in the world.
   Ray ray(std::size_t i) const {
-    if (!moved.empty()) return moved[i];
+    if (is_moved) return moved[i];
     return {frame.pointToWorld((*beams)[i].origin), panned.turnToWorld((*beams)[i].direction)};
   }
 };

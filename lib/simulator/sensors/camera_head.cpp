@@ -54,7 +54,7 @@ class CameraHead : public Sensor {
     for (const auto robot : robots) {
       auto& measured = std::get<Values>(readings[robot].measurements[slot]);
       const CameraAim aim =
-          movedTowards(now.commands[robot].camera_head, CameraAim::from(measured), info_.head, now.time.period_s);
+          movedTowards(*now.commands[robot].camera_head, CameraAim::from(measured), info_.head, now.time.period_s);
       measured.values = {aim.pan_rad, aim.tilt_rad, aim.zoom};
     }
   }

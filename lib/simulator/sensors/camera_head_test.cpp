@@ -54,15 +54,15 @@ TEST(CameraHead, HasTheLimitsOfItsModel) {
 TEST(CameraHead, MovesAtTheSpeedOfEachAxisAndStopsAtItsTarget) {
   const auto head = headFrom("<ptz pan_degps='40' tilt_degps='20' zoom_per_s='3'/>");
   SingleRobotScene robot({});  // steps of 0.1 s
-  robot.command.camera_head.aim = {30 * kDeg, -15 * kDeg, 2};
+  robot.command.camera_head.edit().aim = {30 * kDeg, -15 * kDeg, 2};
   for (int step = 1; step <= 12; ++step) {
     const CameraAim aim = aimOf(robot.sense(*head));
     EXPECT_NEAR(aim.pan_rad, std::min(4 * step, 30) * kDeg, 1e-12) << step;
     EXPECT_NEAR(aim.tilt_rad, -std::min(2 * step, 15) * kDeg, 1e-12) << step;
     EXPECT_NEAR(aim.zoom, std::min(1 + 0.3 * step, 2.0), 1e-12) << step;
   }
-  EXPECT_EQ(aimOf(robot.sense(*head)), robot.command.camera_head.aim) << "exactly";
-  robot.command.camera_head.aim = {};
+  EXPECT_EQ(aimOf(robot.sense(*head)), robot.command.camera_head->aim) << "exactly";
+  robot.command.camera_head.edit().aim = {};
   EXPECT_NEAR(aimOf(robot.sense(*head)).pan_rad, 26 * kDeg, 1e-12) << "back";
 }
 

@@ -1,15 +1,17 @@
 #include "sensors/laser_scanner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "base/portable_math.h"
 #include "sensors/beam_echoes.h"
 #include "sensors/beam_footprint.h"
 #include "sensors/planar_beams.h"
 #include "sensors/scan_errors.h"
-#include "sensors/swept_pose.h"
+#include "sensors/swept_rays.h"
 
 namespace robosim {
 namespace {
@@ -19,7 +21,12 @@ constexpr double kSlack = 1e-9;  ///< more than rounding errors
 class LaserScanner : public Sensor {
  public:
   LaserScanner(const SensorInfo& info, const LaserErrors& errors, const LaserTiming& timing)
-      : info_(info), errors_(errors), scan_errors_(errors, info), timing_(timing), beams_(info.beams) {
+      : info_(info),
+        errors_(errors),
+        scan_errors_(errors, info),
+        timing_(timing),
+        beams_(info.beams),
+        swept_(beams_.rays()) {
     info_.times = timing.times;
     for (std::size_t i = 0; i < beams_.size(); ++i) fields_.add(beams_[i]);
   }
@@ -64,28 +71,16 @@ class LaserScanner : public Sensor {
 
   void castSwept(const Snapshot& now, std::uint32_t robot, double latency_s, double pan_rad, BeamHits& hits) const {
     const Motion& motion = now.last_motion[robot];
-    const PlanarTransform pan(PlanarTransform(), pan_rad);
     const double period_s = now.time.period_s;
     const std::size_t last = beams_.size() - 1;
     const double step_s = last > 0 ? timing_.sweep_s / static_cast<double>(last) : 0;
     const double sweep_s = step_s * static_cast<double>(last);
     const double oldest = (latency_s + sweep_s + timing_.interlace_s) / period_s;
-    hits.moved.resize(beams_.size());
-    const std::size_t revolutions = timing_.interlace_s > 0 ? 2 : 1;
-    for (std::size_t revolution = 0; revolution < revolutions; ++revolution) {
-      const double first = revolution == 0 ? oldest : (latency_s + sweep_s) / period_s;
-      const auto place = [&](auto pose) {
-        for (std::size_t i = 0; i <= last; ++i, pose.next()) {
-          if (revolutions > 1 && i % revolutions != revolution) continue;
-          hits.moved[i] = {pose.pointToWorld(beams_[i].origin), pose.turnToWorld(pan.turnToWorld(beams_[i].direction))};
-        }
-      };
-      if (motion.lateral_m == 0) {
-        place(SweptPose(now.frames[robot], motion, first, step_s / period_s));
-      } else {
-        place(SweptPoseAside(now.frames[robot], motion, first, step_s / period_s));
-      }
-    }
+    const std::array<double, 2> first_shares{oldest, (latency_s + sweep_s) / period_s};
+    swept_.place(now.frames[robot], motion, pan_rad, std::span(first_shares).first(timing_.interlace_s > 0 ? 2 : 1),
+                 step_s / period_s, hits.moved);
+    hits.is_moved = true;
+    const std::span<const Ray> rays(hits.moved.data(), beams_.size());
     const double turn_rad = std::abs(motion.turn_rad) * oldest * (1 + kSlack);
     const auto hit = [&](std::size_t i, double distance_m, BodyId body) { hits.set(i, distance_m, body); };
     if (turn_rad <= 1) {
@@ -93,10 +88,10 @@ class LaserScanner : public Sensor {
       const double arm_m = portable::hypot(beams_[0].origin.x, beams_[0].origin.y);
       const double shift_m = (groundLength(motion) * oldest + arm_m * turn_rad) * (1 + kSlack);
       return beams_.castMoved(now, robot, pan_rad, info_.range_max_m,
-                              {.rays = hits.moved, .shift_m = shift_m, .turn_rad = turn_rad}, hit);
+                              {.rays = rays, .shift_m = shift_m, .turn_rad = turn_rad}, hit);
     }
-    for (std::size_t i = 0; i <= last; ++i) {
-      const Hit found = now.scene.castRay(hits.moved[i], info_.range_max_m, now.bodyOf(robot));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit found = now.scene.castRay(rays[i], info_.range_max_m, now.bodyOf(robot));
       if (found) hit(i, found.distance_m, found.body);
     }
   }
@@ -115,6 +110,7 @@ class LaserScanner : public Sensor {
   ScanErrors scan_errors_;
   LaserTiming timing_;
   PlanarBeams beams_;
+  SweptRays swept_;
   BeamFields fields_;
   bool has_errors_ = !scan_errors_.areNone();
   bool is_lit_ = errors_.divergence_rad > 0 || errors_.reach_m > 0;  ///< the returned light matters

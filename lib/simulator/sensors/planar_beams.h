@@ -1,6 +1,7 @@
 #pragma once
 #include <cassert>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hardware/sensor_info.h"
@@ -16,6 +17,8 @@ class PlanarBeams {
   std::size_t size() const { return beams_.size(); }
   /// Origin and direction of a beam, robot frame, before panning.
   const Ray& operator[](std::size_t i) const { return beams_[i]; }
+
+  std::span<const Ray> rays() const { return beams_; }
 
   /// Beams at one height, as a BeamFan requires.
   struct HeightGroup {

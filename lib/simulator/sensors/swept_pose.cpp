@@ -16,19 +16,16 @@ SweptPoseOf<kIsAside>::SweptPoseOf(const PlanarTransform& now, const Motion& las
       lateral_diameter_m_(0),
       // Below, the arc deviates from its chord by less than a nanometre per metre.
       is_straight_(std::abs(last_motion.turn_rad) < 1e-9),
-      share_(first_share),
       step_share_(step_share) {
   if (!is_straight_) {
     diameter_m_ = 2 * length_m_ / last_motion.turn_rad;
     lateral_diameter_m_ = 2 * lateral_m_ / last_motion.turn_rad;
   }
   const auto half = portable::sincos(last_motion.turn_rad * first_share / 2);
-  half_cos_ = half.cos;
-  half_sin_ = half.sin;
+  age_ = {first_share, half.cos, half.sin};
   const auto half_step = portable::sincos(last_motion.turn_rad * step_share / 2);
   half_step_cos_ = half_step.cos;
   half_step_sin_ = half_step.sin;
-  place();
 }
 
 template class SweptPoseOf<false>;

@@ -1,7 +1,15 @@
 #pragma once
+#include <cstddef>
+
+#include "base/quads.h"
 #include "sensors/sensor.h"
 
 namespace robosim {
+
+/// Four rays in a plane, one in each lane.
+struct RayQuad {
+  DoubleQuad x, y, direction_x, direction_y;
+};
 
 /// Poses of a robot at equally spaced times before the time step, on the arc of its last motion: exact while speed and
 /// turn rate are constant. Successive poses are computed by rotation, without further sines.
@@ -16,36 +24,63 @@ class SweptPoseOf {
 
   /// Advances to the next pose.
   void next() {
-    share_ -= step_share_;
-    const double cos = half_cos_ * half_step_cos_ + half_sin_ * half_step_sin_;
-    half_sin_ = half_sin_ * half_step_cos_ - half_cos_ * half_step_sin_;
-    half_cos_ = cos;
-    place();
+    age_.share -= step_share_;
+    const double cos = age_.half_cos * half_step_cos_ + age_.half_sin * half_step_sin_;
+    age_.half_sin = age_.half_sin * half_step_cos_ - age_.half_cos * half_step_sin_;
+    age_.half_cos = cos;
   }
   mrpt::math::TPoint3D pointToWorld(const mrpt::math::TPoint3D& in_robot) const {
-    return now_.pointToWorld(mrpt::math::TPoint3D(x_ + cos_ * in_robot.x - sin_ * in_robot.y,
-                                                  y_ + sin_ * in_robot.x + cos_ * in_robot.y, in_robot.z));
+    const Place<double> at = place(age_);
+    return now_.pointToWorld(mrpt::math::TPoint3D(at.x + at.cos * in_robot.x - at.sin * in_robot.y,
+                                                  at.y + at.sin * in_robot.x + at.cos * in_robot.y, in_robot.z));
   }
   mrpt::math::TPoint3D turnToWorld(const mrpt::math::TPoint3D& in_robot) const {
-    return now_.turnToWorld(
-        mrpt::math::TPoint3D(cos_ * in_robot.x - sin_ * in_robot.y, sin_ * in_robot.x + cos_ * in_robot.y, in_robot.z));
+    const Place<double> at = place(age_);
+    return now_.turnToWorld(mrpt::math::TPoint3D(at.cos * in_robot.x - at.sin * in_robot.y,
+                                                 at.sin * in_robot.x + at.cos * in_robot.y, in_robot.z));
+  }
+
+  /// How long before the time step poses lie.
+  template <typename Number>
+  struct Age {
+    Number share;               ///< in durations of the last motion
+    Number half_cos, half_sin;  ///< of half the turn from the pose to now
+  };
+  const Age<double>& age() const { return age_; }
+  /// The same as pointToWorld() and turnToWorld(), of rays in the robot's frame, each at a pose of its own.
+  [[gnu::always_inline]] void toWorld(const Age<DoubleQuad>& ages, RayQuad& rays) const {
+    const Place<DoubleQuad> at = place(ages);
+    const DoubleQuad x = at.x + at.cos * rays.x - at.sin * rays.y, y = at.y + at.sin * rays.x + at.cos * rays.y;
+    rays.x = now_.x() + now_.cos() * x - now_.sin() * y;
+    rays.y = now_.y() + now_.sin() * x + now_.cos() * y;
+    const DoubleQuad ahead = at.cos * rays.direction_x - at.sin * rays.direction_y;
+    const DoubleQuad aside = at.sin * rays.direction_x + at.cos * rays.direction_y;
+    rays.direction_x = now_.cos() * ahead - now_.sin() * aside;
+    rays.direction_y = now_.sin() * ahead + now_.cos() * aside;
   }
 
  private:
-  void place() {
+  /// Poses in the frame of now.
+  template <typename Number>
+  struct Place {
+    Number x, y;
+    Number cos, sin;  ///< of the heading
+  };
+  template <typename Number>
+  [[gnu::always_inline]] Place<Number> place(const Age<Number>& age) const {
     // The chord of an arc has the direction of its middle.
-    const double chord_m = is_straight_ ? length_m_ * share_ : diameter_m_ * half_sin_;
-    x_ = -chord_m * half_cos_;
-    y_ = chord_m * half_sin_;
-    if constexpr (kIsAside) placeAside();
-    cos_ = half_cos_ * half_cos_ - half_sin_ * half_sin_;
-    sin_ = -2 * half_sin_ * half_cos_;
-  }
-  /// Of a motion that is not only along the heading.
-  void placeAside() {
-    const double chord_m = is_straight_ ? lateral_m_ * share_ : lateral_diameter_m_ * half_sin_;
-    x_ -= chord_m * half_sin_;
-    y_ -= chord_m * half_cos_;
+    const Number chord_m = is_straight_ ? length_m_ * age.share : diameter_m_ * age.half_sin;
+    Place<Number> at;
+    at.x = -chord_m * age.half_cos;
+    at.y = chord_m * age.half_sin;
+    if constexpr (kIsAside) {
+      const Number aside_m = is_straight_ ? lateral_m_ * age.share : lateral_diameter_m_ * age.half_sin;
+      at.x -= aside_m * age.half_sin;
+      at.y -= aside_m * age.half_cos;
+    }
+    at.cos = age.half_cos * age.half_cos - age.half_sin * age.half_sin;
+    at.sin = -2 * age.half_sin * age.half_cos;
+    return at;
   }
 
   PlanarTransform now_;
@@ -53,11 +88,9 @@ class SweptPoseOf {
   double diameter_m_;            ///< of the arc of length_m_; unused for a straight motion
   double lateral_diameter_m_;    ///< of the arc of lateral_m_
   bool is_straight_;
-  double share_, step_share_;
-  double half_cos_, half_sin_;            ///< of half the turn from the pose to now
+  double step_share_;
   double half_step_cos_, half_step_sin_;  ///< of half the turn between two poses
-  double x_ = 0, y_ = 0;                  ///< of the pose, in the frame of now
-  double cos_ = 1, sin_ = 0;              ///< of the heading, in the frame of now
+  Age<double> age_;
 };
 
 using SweptPose = SweptPoseOf<false>;

@@ -250,7 +250,7 @@ void RobotSession::sendWelcome(Stream& stream) {
   welcome.period_s = environment.time().period_s;
   for (const auto robot : stream.robots) {
     const FleetRobot& of_fleet = environment.fleet().robots[robot];
-    welcome.robots.push_back({of_fleet.info, static_cast<std::uint32_t>(robot), of_fleet.controller,
+    welcome.robots.push_back({of_fleet.info, static_cast<std::uint32_t>(robot), *of_fleet.controller,
                               next_answer_[robot], of_fleet.world_from_start});
   }
   welcome.all_robots = run_info.robot_names;

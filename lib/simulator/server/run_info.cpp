@@ -39,7 +39,7 @@ RunInfo::RunInfo(const Environment& the_environment, WorldSource the_source, std
   checkUtf8(environment.world().name, "world");
   for (const auto& robot : environment.fleet().robots) {
     checkUtf8(robot.info.name, "robot");
-    checkUtf8(robot.info.model, "robot type");
+    checkUtf8(robot.info.type->model, "robot type");
     robot_named.emplace(robot.info.name, robot_names.size());
     robot_names.push_back(robot.info.name);
   }

@@ -75,7 +75,7 @@ TEST(ViewedRun, HasTheRobotsThatHaveBeenAddedWithTheirFrame) {
   EXPECT_TRUE(update(run, frame));
   ASSERT_EQ(run.snapshot.robots.size(), 3u);
   EXPECT_EQ(run.world.fleet.robots[2].info.name, "new");
-  EXPECT_EQ(run.world.fleet.robots[2].info.model, "scout");
+  EXPECT_EQ(run.world.fleet.robots[2].info.type->model, "scout");
   frame.mutable_world()->set_added_robots(0, "<remove name='a'/>");
   EXPECT_THROW(update(run, frame), WireError);
 }

@@ -22,7 +22,7 @@ class Dasher : public Controller {
     if (!robot.inbox().empty()) turn_radps_ = -turn_radps_;
     double nearest_m = 10;
     for (const auto& echo : robot.laser()) nearest_m = std::min<double>(nearest_m, echo.range_m);
-    const bool is_omni = robot.info().drive.kind == DriveKind::omni;
+    const bool is_omni = robot.info().type->drive.kind == DriveKind::omni;
     robot.drive(nearest_m < 0.4 ? -1 : 3, nearest_m < 0.8 ? 3 : turn_radps_, is_omni ? turn_radps_ : 0);
     const std::uint32_t chance = rng_.below(1000);
     const auto other = rng_.below(static_cast<std::uint32_t>(robot.robots().size()));

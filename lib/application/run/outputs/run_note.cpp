@@ -143,7 +143,7 @@ RunNote makeNote(const WorldSource& source, const LocalRun& run, const RunOption
   const std::size_t at_start = robots.size() - run.environment().state().additions.size();
   for (std::size_t i = 0; i < at_start; ++i) {
     const bool is_elsewhere = !elsewhere.empty() && elsewhere[i];
-    note.controllers.push_back(is_elsewhere ? "" : controllerOf(robots[i].controller, options.controller));
+    note.controllers.push_back(is_elsewhere ? "" : controllerOf(*robots[i].controller, options.controller));
   }
   return note;
 }

@@ -267,7 +267,7 @@ Sip ArcosBoard::sip() const {
 }
 
 arcos::ConfigPacket ArcosBoard::config() const {
-  const MotionLimits& limits = robot_.info().limits;
+  const MotionLimits& limits = robot_.info().type->limits;
   const auto number = [](double value) { return std::max<std::uint16_t>(1, rounded<std::uint16_t>(value)); };
   arcos::ConfigPacket config;
   config.subclass = parameters_.subclass;

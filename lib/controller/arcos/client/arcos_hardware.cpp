@@ -136,11 +136,11 @@ void ArcosHardware::describe(ArcosRobotType type) {
     const auto limit = [](double& value, double configured) {
       if (configured > 0) value = std::min(value, configured);
     };
-    limit(info_.limits.speed_max_mps, config->speed_max / kMm);
-    limit(info_.limits.turn_max_radps, config->turn_max * kRadPerDeg);
-    limit(info_.limits.accel_mps2, config->accel / kMm);
-    limit(info_.limits.decel_mps2, config->decel / kMm);
-    limit(info_.limits.turn_accel_radps2, std::min(config->turn_accel, config->turn_decel) * kRadPerDeg);
+    limit(info_.type.edit().limits.speed_max_mps, config->speed_max / kMm);
+    limit(info_.type.edit().limits.turn_max_radps, config->turn_max * kRadPerDeg);
+    limit(info_.type.edit().limits.accel_mps2, config->accel / kMm);
+    limit(info_.type.edit().limits.decel_mps2, config->decel / kMm);
+    limit(info_.type.edit().limits.turn_accel_radps2, std::min(config->turn_accel, config->turn_decel) * kRadPerDeg);
   }
   std::vector<SensorInfo> sensors;
   std::vector<std::string> missing{"CheckWin"};
@@ -191,7 +191,7 @@ bool ArcosHardware::canCarryScans(const SensorInfo& laser) const {
 }
 
 void ArcosHardware::configure() {
-  const MotionLimits& limits = info_.limits;
+  const MotionLimits& limits = info_.type->limits;
   const auto mm = [](double metres) { return static_cast<int>(std::lround(metres * kMm)); };
   const auto deg = [](double rad) { return static_cast<int>(std::lround(rad / kRadPerDeg)); };
   std::string commands =
@@ -242,8 +242,8 @@ void ArcosHardware::sendCommand() {
   const auto limited = [](double value, double limit) {
     return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0;
   };
-  const double mmps = limited(command_.speed_mps, info_.limits.speed_max_mps) * kMm;
-  const double degps = limited(command_.turn_radps, info_.limits.turn_max_radps) / kRadPerDeg;
+  const double mmps = limited(command_.speed_mps, info_.type->limits.speed_max_mps) * kMm;
+  const double degps = limited(command_.turn_radps, info_.type->limits.turn_max_radps) / kRadPerDeg;
   channel_->write(encodeCommand(command::vel, rounded(mmps, unsent_mmps_)) +
                   encodeCommand(command::rvel, rounded(degps, unsent_degps_)));
 }

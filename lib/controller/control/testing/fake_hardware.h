@@ -39,11 +39,11 @@ class FakeHardware : public Hardware, public RefereeLink {
     SensorInfo laser = sensor(SensorKind::laser, 8, 8.1);
     laser.beams.push_back({{0.1, 0, 0.2, 0, 0, 0}});
     SensorInfo heat = sensor(SensorKind::heat, 3, 0);
-    info_.name = info_.model = "fake";
+    info_.name = info_.type.edit().model = "fake";
     info_.neighbour = std::move(neighbour);
     info_.radius_m = kRadius_m;
     info_.height_m = 0.3;
-    info_.limits = {
+    info_.type.edit().limits = {
         .speed_max_mps = 1, .turn_max_radps = 2, .accel_mps2 = 0.5, .decel_mps2 = 1, .turn_accel_radps2 = 4};
     info_.sensors = std::make_shared<std::vector<SensorInfo>>(std::vector<SensorInfo>{odometry, sonar, laser, heat});
     readings_.measurements = {Odometry{}, Echoes(static_cast<std::size_t>(sonars)), Echoes(1), Scalar{}};
@@ -51,7 +51,7 @@ class FakeHardware : public Hardware, public RefereeLink {
   }
 
   const RobotInfo& info() const override { return info_; }
-  void setDrive(const Drive& drive) { info_.drive = drive; }
+  void setDrive(const Drive& drive) { info_.type.edit().drive = drive; }
   const std::vector<std::string>& robots() const override { return robot_names; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
@@ -99,7 +99,7 @@ class FakeHardware : public Hardware, public RefereeLink {
   void advance() {
     const double dt = readings_.time.period_s;
     Odometry& odo = mutableOdometry();
-    const MotionLimits& limits = info_.limits;
+    const MotionLimits& limits = info_.type->limits;
     const double accel = std::abs(command_.speed_mps) > std::abs(odo.speed_mps) ? limits.accel_mps2 : limits.decel_mps2;
     odo.speed_mps = approach(odo.speed_mps, command_.speed_mps, limits.speed_max_mps, accel * dt);
     odo.turn_radps =

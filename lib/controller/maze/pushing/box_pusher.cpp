@@ -34,7 +34,8 @@ void BoxPusher::step(Robot& robot) {
 void BoxPusher::approach(Robot& robot) {
   const double gap_m = clearanceInLane(robot, 1);
   if (gap_m > kBoxGap_m && !robot.stalled()) {
-    const double braking_mps = std::sqrt(2 * robot.info().limits.decel_mps2 * std::max(0.0, gap_m - kBoxGap_m / 2));
+    const double braking_mps =
+        std::sqrt(2 * robot.info().type->limits.decel_mps2 * std::max(0.0, gap_m - kBoxGap_m / 2));
     robot.drive(std::min({options_.speed_mps, braking_mps, std::max(0.02, gap_m)}),
                 -kCourseGain_per_s * tracker_.startFromRobot().phi);
     return;

@@ -68,7 +68,7 @@ double freeDirection(const Robot& robot, double wanted_rad) {
 }
 
 void steerBy(Robot& robot, double bearing_rad, double speed_mps) {
-  const MotionLimits& limits = robot.info().limits;
+  const MotionLimits& limits = robot.info().type->limits;
   const double turn_radps = std::clamp(kHeadingGain_per_s * bearing_rad, -limits.turn_max_radps, limits.turn_max_radps);
   const double share = std::max(0.0, 1 - std::abs(bearing_rad) / kTurnFirst_rad);
   robot.drive(speed_mps * share, turn_radps);
@@ -87,7 +87,7 @@ bool driveTo(Robot& robot, const TPose2D& map_from_robot, const TPoint2D& place,
     robot.stop();
     return true;
   }
-  const double braking_mps = std::sqrt(robot.info().limits.decel_mps2 * distance_m);
+  const double braking_mps = std::sqrt(robot.info().type->limits.decel_mps2 * distance_m);
   driveTowards(robot, wayBearing(way) - map_from_robot.phi, std::min(speed_mps, braking_mps));
   return false;
 }
@@ -107,7 +107,7 @@ void pushDisc(Robot& robot, const TPose2D& map_from_robot, const PushTask& task,
     const double wanted_rad = std::clamp(-error_rad, -0.45, 0.45);
     const double line_radps = speed_mps * portable::sin(bearing_rad) / contact_m;
     const double turn_radps = line_radps + kHeadingGain_per_s * (bearing_rad - wanted_rad);
-    const double turn_max_radps = robot.info().limits.turn_max_radps;
+    const double turn_max_radps = robot.info().type->limits.turn_max_radps;
     const double share = std::clamp(1.3 - std::abs(bearing_rad - wanted_rad), 0.2, 1.0);
     robot.drive(speed_mps * share, std::clamp(turn_radps, -turn_max_radps, turn_max_radps));
     return;

@@ -36,7 +36,7 @@ bool driveStraight(Robot& robot, const TPose2D& world_from_robot, const TPoint2D
     turn_rad = mrpt::math::wrapToPi(turn_rad + M_PI);
     direction = -1;
   }
-  const double braking_mps = std::sqrt(robot.info().limits.decel_mps2 * distance_m);
+  const double braking_mps = std::sqrt(robot.info().type->limits.decel_mps2 * distance_m);
   const double share = std::max(0.0, 1 - 2 * std::abs(turn_rad));
   robot.drive(direction * share * std::min(speed_mps, braking_mps), 3 * turn_rad);
   return false;

@@ -220,7 +220,7 @@ void SoccerPlayer::keep(Robot& robot) {
   const double upright_rad = world_from_robot_.phi > 0 ? std::numbers::pi / 2 : -std::numbers::pi / 2;
   const double turn_rad = mrpt::math::wrapToPi(upright_rad - world_from_robot_.phi);
   const double way_m = (y_m - world_from_robot_.y) * (upright_rad > 0 ? 1 : -1);
-  const double braking_mps = std::sqrt(robot.info().limits.decel_mps2 * std::abs(way_m));
+  const double braking_mps = std::sqrt(robot.info().type->limits.decel_mps2 * std::abs(way_m));
   const double speed_mps =
       std::abs(turn_rad) > 0.4 ? 0 : std::copysign(std::min(options_.speed_mps, braking_mps), way_m);
   robot.drive(speed_mps, 4 * turn_rad);

@@ -10,6 +10,7 @@ namespace {
 constexpr double kSkin_m = 0.7;
 /// Where more solids lie within reach, the nearest ones occlude most of the others.
 constexpr std::size_t kMaxNeighbours = 64;
+static_assert(kMaxNeighbours <= std::numeric_limits<std::uint8_t>::max());
 /// Slightly less than 1: the product never increases when rounded to float.
 constexpr double kRoundDown = 1 - 1e-7;
 
@@ -21,8 +22,8 @@ void NeighbourList::update(const GridIndex& solids, const mrpt::math::TPoint2D& 
   // the floats.
   static thread_local std::vector<std::uint64_t> found;
   anchor_ = at;
-  covered_m_ = reach_m + kSkin_m;
-  const double covered_m = covered_m_;
+  const double covered_m = reach_m + kSkin_m;
+  covered_m_ = static_cast<float>(covered_m * kRoundDown);
   std::size_t count = 0;
   const GridItem* const items = solids.items().data();
   solids.visitNear(at, covered_m, [&](std::uint32_t i) {
@@ -38,10 +39,13 @@ void NeighbourList::update(const GridIndex& solids, const mrpt::math::TPoint2D& 
   const auto distance = [](std::uint64_t key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); };
   const std::size_t kept = std::min(static_cast<std::size_t>(end - begin), kMaxNeighbours);
   if (begin + static_cast<std::ptrdiff_t>(kept) != end) covered_m_ = distance(found[kept]);
-  nearest_first_.clear();
-  nearest_first_.reserve(kept);
+  if (kept > capacity_) {
+    nearest_first_ = std::make_unique_for_overwrite<Neighbour[]>(kept);
+    capacity_ = static_cast<std::uint8_t>(kept);
+  }
+  size_ = static_cast<std::uint8_t>(kept);
   for (std::size_t k = 0; k < kept; ++k) {
-    nearest_first_.push_back({distance(found[k]), static_cast<std::uint32_t>(found[k])});
+    nearest_first_[k] = {distance(found[k]), static_cast<std::uint32_t>(found[k])};
   }
 }
 

@@ -37,7 +37,7 @@ class RecordedStepsTest : public TestFolder {
     readings[0].stalled = step % 3 == 0;
     readings[1].is_too_far = step == 7;
     if (step >= 40) readings[0].winner = readings[1].winner = "b";
-    if (step % 4 == 1) readings[1].inbox = {{"a", "b", "GOLD"}, {"a", "b", std::string("\0\xff", 2)}};
+    if (step % 4 == 1) readings[1].inbox.edit() = {{"a", "b", "GOLD"}, {"a", "b", std::string("\0\xff", 2)}};
     return readings;
   }
   /// Images are compressed again when they are read.

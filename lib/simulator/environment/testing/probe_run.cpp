@@ -175,7 +175,8 @@ void ProbeRun::prepare(Environment& environment) const {
       command.grip = command.by_driver != command.emergency_stop;
       if (command.by_driver) command.led_color = 0x10203 * i;
       if (rng.below(3) == 0) {
-        command.camera_head = {{rng.uniform(-2, 2), rng.uniform(-1, 2), rng.uniform(0, 20)}, rng.uniform(-1, 2), 0.5};
+        command.camera_head =
+            CameraHeadCommand{{rng.uniform(-2, 2), rng.uniform(-1, 2), rng.uniform(0, 20)}, rng.uniform(-1, 2), 0.5};
       }
       environment.setCommand(i, command);
     }

@@ -52,7 +52,12 @@ void addDisc(World& world, Fleet& fleet, const std::string& name, const mrpt::ma
   model->sensor_infos = std::make_shared<std::vector<SensorInfo>>(1, model->sensors[0]->info());
 
   FleetRobot robot;
-  robot.info = {name, model->name, "", radius_m, model->body.height_m, limits, model->sensor_infos};
+  robot.info = {.name = name,
+                .type = RobotTypeInfo{model->name, limits, {}},
+                .neighbour = {},
+                .radius_m = radius_m,
+                .height_m = model->body.height_m,
+                .sensors = model->sensor_infos};
   robot.model = model;
   robot.world_from_start = start;
   fleet.robots.push_back(robot);
