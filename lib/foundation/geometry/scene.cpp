@@ -130,9 +130,8 @@ Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, con
 Scene::Scene(std::shared_ptr<const GridIndex> stationary, std::size_t moving_count)
     : stationary_count_(stationary->items().size()), moving_count_(moving_count) {
   const GridIndex& grid = *stationary;
-  index_ = std::make_unique<SceneIndex>(SceneIndex{std::move(stationary), grid,
-                                                   CenterIndex(moving_count, grid.middle()),
-                                                   std::vector<NeighbourList>(moving_count)});
+  index_ = std::make_unique<SceneIndex>(SceneIndex{
+      std::move(stationary), grid, CenterIndex(moving_count, grid.middle()), std::vector<NeighbourList>(moving_count)});
   freeze();
 }
 

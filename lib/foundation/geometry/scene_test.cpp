@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <new>
 #include <vector>
 
@@ -40,6 +41,30 @@ TEST(Scene, NumbersTheStationaryBodiesBeforeTheMovingOnes) {
   scene.freeze();
   EXPECT_EQ(std::get<Circle>(scene.solid(BodyId{1}).outline).center.x, 2);
   EXPECT_EQ(std::get<Circle>(scene.solid(BodyId{2}).outline).center.x, 3);
+}
+
+TEST(Scene, SharesStationarySolidsWithOtherScenes) {
+  const std::vector<Solid> pillars{{Circle{{5, 0}, 1}, {0, 1}}, {OrientedBox{{0, 7}, {1, 0}, 2, 1}, {0, 1}}};
+  const Bounds2D area{-9, 9, -9, 9};
+  auto first = std::make_unique<Scene>(indexStationary(pillars, area), 1);
+  Scene second(first->stationary(), 2), own(pillars, 2, area);
+  EXPECT_EQ(second.stationary(), first->stationary());
+  EXPECT_NE(own.stationary(), first->stationary());
+  first->place(0, {Circle{{2, 0}, 0.5}, {0, 1}});
+  first->freeze();
+  for (Scene* scene : {&second, &own}) {
+    scene->place(1, {Circle{{0, 3}, 0.5}, {0, 1}});
+    scene->freeze();
+  }
+  const Ray ahead{{0, 0, 0.5}, {1, 0, 0}}, left{{0, 0, 0.5}, {0, 1, 0}};
+  EXPECT_EQ(first->castRay(ahead, 20).distance_m, 1.5);
+  EXPECT_EQ(first->castRay(left, 20).distance_m, 6) << "not the solid of the other scene";
+  first.reset();
+  for (const Scene* scene : {&second, &own}) {
+    EXPECT_EQ(scene->castRay(ahead, 20).distance_m, 4);
+    EXPECT_EQ(scene->castRay(left, 20).distance_m, 2.5);
+    EXPECT_EQ(scene->castRay(left, 20).body, BodyId{3});
+  }
 }
 
 TEST(Scene, FindsTheNearestBodyExceptTheExcludedOne) {

@@ -101,8 +101,8 @@ void Environment::step() {
   phases.clip(every);
   phases.judge(every);
   phases.move();
-  phases.sense(every);
-  phases.finish();
+  phases.senseFully(every);
+  phases.conclude();
 }
 
 std::string Environment::digest() const {

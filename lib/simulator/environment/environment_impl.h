@@ -28,7 +28,7 @@ namespace robosim {
 /// The state of an environment and the phases of its step. Of Environment and StepPhases only.
 struct Environment::Impl {
   /// Selects sensors by Sensor::sensesInHostProcess().
-  enum class SensorGroup { anywhere, in_host_process };
+  enum class SensorGroup { all, anywhere, in_host_process };
 
   /// A property of each robot. In an array of its own, because to look it up in the fleet would cost a cache miss or
   /// more.
@@ -313,20 +313,25 @@ struct Environment::Impl {
     return now;
   }
 
+  /// The sensors of all groups are those of the others, one after the other: messages may be delivered later.
   void sense(RobotRange range, SensorGroup which) {
-    const bool is_host = which == SensorGroup::in_host_process;
-    const auto slots = is_host ? &RobotGroup::host_slots : &RobotGroup::slots;
-    if (is_host ? robot_groups.have_host_slots : robot_groups.have_slots) {
+    const bool has_slots = which != SensorGroup::in_host_process && robot_groups.have_slots;
+    const bool has_host_slots = which != SensorGroup::anywhere && robot_groups.have_host_slots;
+    if (has_slots || has_host_slots) {
       const Snapshot now = snapshot();
       forPresent(range, which, [&](const RobotGroup& group, std::span<const std::uint32_t> robots) {
-        for (const auto slot : group.*slots) group.model->sensors[slot]->sense(now, robots, slot, state.readings);
+        const auto sense = [&](std::size_t slot) {
+          group.model->sensors[slot]->sense(now, robots, slot, state.readings);
+        };
+        if (has_slots) std::for_each(group.slots.begin(), group.slots.end(), sense);
+        if (has_host_slots) std::for_each(group.host_slots.begin(), group.host_slots.end(), sense);
       });
-    } else if (!is_host) {  // the neighbours are also those of the next step's paths
+    } else if (which != SensorGroup::in_host_process) {  // the neighbours are also those of the next step's paths
       forPresent(range, which, [](const RobotGroup&, std::span<const std::uint32_t>) {});
     }
   }
   /// Calls use(group, robots) for the robots of a range that are present, in pieces, after updating their neighbours.
-  /// @param which leaves out robots without sensors in the host's process
+  /// @param which leaves out robots without such sensors in the host's process
   template <typename Use>
   void forPresent(RobotRange range, SensorGroup which, const Use& use) {
     for (const RobotGroup& group : robot_groups.groups) {
@@ -520,9 +525,8 @@ struct Environment::Impl {
 
   /// Measures step 0.
   void start() {
-    sense(share.kept, SensorGroup::anywhere);
+    sense(share.kept, SensorGroup::all);
     deliverMessages();
-    sense(share.kept, SensorGroup::in_host_process);
     conclude();
   }
 

@@ -1,10 +1,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "environment/environment.h"
+#include "environment/placed_bodies.h"
 #include "environment/step_phases.h"
 #include "environment/testing/small_world.h"
 
@@ -46,6 +49,54 @@ TEST(Interventions, MakeTheRunThatAWorldWithTheObjectThereMakes) {
   EXPECT_EQ(placed.state().world_from_robot, from_the_start.state().world_from_robot);
   EXPECT_EQ(placed.state().readings, from_the_start.state().readings);
   EXPECT_EQ(placed.environment->objects(), from_the_start.environment->world().objects);
+}
+
+TEST(Interventions, GiveARunAnIndexOfItsOwnWhileTheOthersOfTheModelShareOne) {
+  const Scene2 scene;
+  const std::shared_ptr<const Model> model = scene.environment->model();
+  const auto& objects = model->world.objects;
+  PlacedBodies first(*model, objects), second(*model, objects);
+  EXPECT_EQ(first.scene().stationary(), model->stationary);
+  EXPECT_EQ(second.scene().stationary(), model->stationary);
+
+  const std::vector<WorldObject> moved = withChange(objects, PlaceBody{"wall1", 1.5, 0, 0.5});
+  second.setObjects(moved);
+  EXPECT_NE(second.scene().stationary(), model->stationary);
+  EXPECT_EQ(first.scene().stationary(), model->stationary);
+  const Ray ahead{{0, 0, 0.5}, {1, 0, 0}};
+  const auto nearest = [&](PlacedBodies& bodies) { return bodies.scene().castRay(ahead, 3).distance_m; };
+  EXPECT_EQ(nearest(first), std::numeric_limits<double>::infinity());
+  EXPECT_LT(nearest(second), 1.5);
+  second.setObjects(objects);
+  EXPECT_EQ(second.scene().stationary(), model->stationary) << "as in the beginning";
+  EXPECT_EQ(nearest(second), nearest(first));
+}
+
+TEST(Interventions, OfARunDoNotAffectAnotherOfTheModel) {
+  const auto moved = [](World& world) { world.objects[1].body.world_from_body = {1.5, 0, 0.5}; };
+  const Scene2 undisturbed, from_the_start(moved);
+  const std::shared_ptr<const Model> model = undisturbed.environment->model();
+  Environment first(model, initialState(*model)), second(model, initialState(*model));
+  EXPECT_EQ(second.apply({"test", PlaceBody{"wall1", 1.5, 0, 0.5}}), "");
+  for (int i = 0; i < 40; ++i) {
+    for (Environment* run : {&first, &second}) {
+      run->setCommand(0, {.speed_mps = 1});
+      run->setCommand(1, {.speed_mps = 1, .turn_radps = 0.3});
+      run->step();
+    }
+  }
+  undisturbed.drive(40);
+  from_the_start.drive(40);
+  EXPECT_EQ(first.state().world_from_robot, undisturbed.state().world_from_robot);
+  EXPECT_EQ(second.state().world_from_robot, from_the_start.state().world_from_robot);
+  EXPECT_NE(second.state().world_from_robot, first.state().world_from_robot);
+  second.restart(initialState(*model));
+  for (int i = 0; i < 40; ++i) {
+    second.setCommand(0, {.speed_mps = 1});
+    second.setCommand(1, {.speed_mps = 1, .turn_radps = 0.3});
+    second.step();
+  }
+  EXPECT_EQ(second.state().world_from_robot, undisturbed.state().world_from_robot) << "without the change again";
 }
 
 TEST(Interventions, AreInTheDigestWithTheirStepAndWithoutTheirAuthor) {

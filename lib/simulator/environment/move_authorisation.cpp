@@ -30,7 +30,7 @@ MoveAuthorisation::MoveAuthorisation(const std::vector<Mover>& movers, const Bou
 
 void MoveAuthorisation::begin(const ParallelExecutor& workers, const KnownRobots& known, std::span<const Path> paths,
                               std::span<const HeldObject> held) {
-  held_.assign(held.begin(), held.end());
+  if (!held_.empty() || !held.empty()) held_.assign(held.begin(), held.end());
   if (movers_.size() == 1) return;  // the rest is about other robots; stays_ remains 0
   extent_max_m_ = radius_max_m_;
   for (const auto& object : held_) extent_max_m_ = std::max(extent_max_m_, object.extent());

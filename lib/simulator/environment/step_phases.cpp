@@ -24,10 +24,7 @@ StepOrders StepPhases::orders() {
   return {state.commands, state.outboxes, impl_->may_send, state.win_requests, state.activity};
 }
 
-void StepPhases::senseFully(RobotRange range) {
-  impl_->sense(range, Environment::Impl::SensorGroup::anywhere);
-  impl_->sense(range, Environment::Impl::SensorGroup::in_host_process);
-}
+void StepPhases::senseFully(RobotRange range) { impl_->sense(range, Environment::Impl::SensorGroup::all); }
 void StepPhases::conclude() {
   impl_->deliverMessages();
   impl_->conclude();

@@ -43,10 +43,10 @@ struct MotionState {
 };
 
 /// A time step in parts, for distributing it over processes that each hold a replica of the environment.
-/// Environment::step() is begin(), clip(), judge(), move(), sense(), finish(). clip(), judge() and sense() work on
-/// ranges of robots, locally or in replicas, in any order; their results() are copied from a replica to here, and are
-/// bit-identical. Each phase must be complete for all robots before the next begins. A replica needs no finish(). A
-/// reference to an environment, which must outlive it.
+/// Environment::step() is begin(), clip(), judge(), move(), senseFully(), conclude(); the last two are equal to
+/// sense(), finish(). clip(), judge() and sense() work on ranges of robots, locally or in replicas, in any order; their
+/// results() are copied from a replica to here, and are bit-identical. Each phase must be complete for all robots
+/// before the next begins. A replica needs no finish(). A reference to an environment, which must outlive it.
 class StepPhases {
  public:
   /// What controllers have requested so far for the next step.

@@ -145,6 +145,45 @@ TEST(EnvironmentBatch, BeginsEpisodesWithTheChangesOfTheirEnvironment) {
   EXPECT_EQ(batch.environment(1).objects().size(), 1u);
 }
 
+TEST(EnvironmentBatch, StepsManyWorldsOfWhichSomeAreChangedAsEachAlone) {
+  constexpr std::size_t kWorlds = 100, kChanged = 7;
+  WorldObject crate;
+  crate.name = "crate";
+  crate.body = {Cube{0.2, 0.2}, {0.55, 0, 0}, 0.5, 1};  // between robot and gold
+  const std::vector<Change> changes{AddObject{crate}};
+  const auto options = [](std::size_t environments, int threads) {
+    BatchOptions of = poseOptions(environments);
+    of.steps_max = 12;
+    of.threads = threads;
+    return of;
+  };
+  const auto run = [&](EnvironmentBatch& batch, const auto& is_changed) {
+    Arrays arrays(batch);
+    for (std::size_t i = 0; i < batch.options().environments; ++i) {
+      if (is_changed(i)) batch.setChanges(i, changes);
+    }
+    batch.reset(arrays.observations);
+    std::vector<float> actions;
+    for (std::size_t i = 0; i < batch.options().environments; ++i) actions.insert(actions.end(), {1, 0.2f});
+    for (int i = 0; i < 20; ++i) batch.step(actions, arrays.results());  // beyond the end of the first episode
+    return arrays.observations;
+  };
+  std::vector<std::vector<float>> alone;
+  for (const bool is_changed : {false, true}) {
+    EnvironmentBatch one(worldsOf(worldWithGold()), options(1, 1));
+    alone.push_back(run(one, [&](std::size_t) { return is_changed; }));
+  }
+  ASSERT_NE(alone[0], alone[1]);
+  for (const int threads : {1, 3}) {
+    EnvironmentBatch batch(worldsOf(worldWithGold()), options(kWorlds, threads));
+    const std::vector<float> all = run(batch, [](std::size_t i) { return i % kChanged == 0; });
+    for (std::size_t i = 0; i < kWorlds; ++i) {
+      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(3 * i);
+      EXPECT_EQ(std::vector(begin, begin + 3), alone[i % kChanged == 0 ? 1 : 0]) << i;
+    }
+  }
+}
+
 TEST(EnvironmentBatch, RefusesAnImpossibleChangeAtTheBeginningOfAnEpisode) {
   EnvironmentBatch batch(worldsOf(worldWithGold()), poseOptions(2));
   Arrays arrays(batch);

@@ -107,7 +107,9 @@ void CenterIndex::buildOne(std::size_t solid) {
   cell_m_ = kCellMin_m;
   per_m_ = 1 / kCellMin_m;
   columns_ = rows_ = 1;
-  begin_.assign({0, 1});
+  begin_.resize(2);
+  begin_[0] = 0;
+  begin_[1] = 1;
   entries_[0] = {CullDisc::from(item, middle()), static_cast<std::uint32_t>(solid)};
 }
 

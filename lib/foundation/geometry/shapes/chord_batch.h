@@ -29,17 +29,13 @@ class ChordBatch {
     arc_of_turn_[turning_] = size_++;
     turning_ += half_turn_rad != 0 ? 1 : 0;
   }
-  void compute() {
-    portable::sincos({direction_rad_.data(), size_}, sin_.data(), cos_.data());
-    if (turning_ == 0) return;
-    std::array<double, kCapacity> sin_of_half, cos_of_half;
-    portable::sincos({half_turn_rad_.data(), turning_}, sin_of_half.data(), cos_of_half.data());
-    for (std::size_t k = 0; k < turning_; ++k) per_arc_[arc_of_turn_[k]] = sin_of_half[k] / half_turn_rad_[k];
-  }
+  void compute();
   /// @pre compute() since the last add()
   Chord operator[](std::size_t i) const { return {per_arc_[i], {sin_[i], cos_[i]}}; }
 
  private:
+  void computeFew();
+
   std::size_t size_ = 0;
   std::array<double, kCapacity> direction_rad_, per_arc_, sin_, cos_;
   // Of the arcs that turn.
