@@ -70,10 +70,9 @@ inline std::size_t findByte(std::span<const std::byte> bytes, std::byte value) {
 /// Calls visit(i) for each flag that is 1, of flags that are 0 or 1 and mostly 0.
 template <typename Visit>
 void forFlags(std::span<const std::uint8_t> flags, const Visit& visit) {
-  for (std::size_t i = 0;; ++i) {
+  for (std::size_t i = 0; i < flags.size(); ++i) {
     i += findByte(std::as_bytes(flags.subspan(i)), std::byte{1});
-    if (i == flags.size()) return;
-    visit(i);
+    if (i < flags.size()) visit(i);
   }
 }
 
