@@ -112,7 +112,7 @@ TEST(RobotsAnswer, KeepsTheCommandOfACamerasHead) {
   }
   wire.mutable_camera_head()->set_pan_rad(1);
   decode(message, 1, answer);
-  EXPECT_EQ(answer.orders[0].command.camera_head, (CameraHeadCommand{{1, 0, 1}})) << "no zoom is 1";
+  EXPECT_EQ(*answer.orders[0].command.camera_head, (CameraHeadCommand{{1, 0, 1}})) << "no zoom is 1";
 }
 
 TEST(RobotsAnswer, RejectsUnknownActivitiesInvalidRobotsAndLongMessages) {

@@ -50,7 +50,7 @@ TEST(RobotStatusRecord, KeepsTheCommandOfACamerasHead) {
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{head});
   Readings readings;
   readings.measurements = {CameraAim{}.values()};
-  const Command ahead{.speed_mps = 1, .camera_head = {{0.5, -0.25, 4}, 1.5, 0.75}};
+  const Command ahead{.speed_mps = 1, .camera_head = CameraHeadCommand{{0.5, -0.25, 4}, 1.5, 0.75}};
   Command aside = ahead;
   aside.lateral_mps = -0.5;
   for (const auto& [kind, command] : {std::pair(DriveKind::differential, ahead), std::pair(DriveKind::omni, aside)}) {
@@ -85,7 +85,7 @@ TEST(RobotStatusRecord, WritesTheStatusOfEveryDriveByItsTemplateAsMrptDoes) {
         readings.stalled = step == 2;
         if (has_head) {
           readings.measurements = {CameraAim{}.values()};
-          changing.camera_head = {{0.5, -0.25, 4}, 1.5, static_cast<double>(step)};
+          changing.camera_head = CameraHeadCommand{{0.5, -0.25, 4}, 1.5, static_cast<double>(step)};
         }
         ByteArchive by_mrpt, by_template;
         for (const auto& observation : record.of(readings, changing)) by_mrpt << *observation;

@@ -135,7 +135,7 @@ RunNote makeNote(const WorldSource& source, const LocalRun& run, const RunOption
   if (options.is_added_elsewhere) {
     FleetRobot added;
     if (options.is_added_elsewhere(added)) note.added_elsewhere = RunNote::Elsewhere::without_controller;
-    added.controller = kDefaultController;
+    added.controller.edit() = kDefaultController;
     if (options.is_added_elsewhere(added)) note.added_elsewhere = RunNote::Elsewhere::all;
   }
   note.controller_of_added = options.controller_of_added.empty() ? options.controller : options.controller_of_added;
