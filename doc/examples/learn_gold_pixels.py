@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Learns to drive to gold by what a camera sees, and compares the result with others in rooms that it has not seen.
 
-    learn_gold_pixels.py [--generations 150] [--minutes 15] [--threads 2] [--policy FILE.npz] [--rooms 200]
+    learn_gold_pixels.py [--starts 4] [--minutes 15] [--threads 2] [--policy FILE.npz] [--rooms 200]
 
 A robot with a ray-cast camera of 64 × 64 pixels stands somewhere in a room with boxes and a golden cylinder. The policy is a
 network of 133 weights from the picture and the last turn rate to speed and turn rate. It learns by the evolution strategy of
-learn_gold.py, which must lie in the same folder. The policy that is kept is the one that found the gold in most rooms of a second set,
-which is tried after every ten generations. Requires NumPy."""
+learn_gold.py, which must lie in the same folder, several times from other random weights, since some lead to a poor policy. The
+policy that is kept is the one that finds the gold in most rooms of a second set, where it is tried after every ten generations.
+Requires NumPy."""
 import argparse
+import itertools
 import time
 
 import numpy as np
@@ -19,7 +21,8 @@ HALF_M = 4  # half of the room's side
 BOXES = 6
 PERIOD_S = 0.2  # between two pictures
 CAMERA = f"""<sensors> <odometry/> <heat/>
-  <camera model="raycast" width_px="64" height_px="64" field_of_view_deg="90" z_m="0.35" range_max_m="12" rate_hz="{1 / PERIOD_S}"/> </sensors>"""
+  <camera model="raycast" width_px="64" height_px="64" field_of_view_deg="90" z_m="0.35" range_max_m="12"
+    rate_hz="{1 / PERIOD_S}"/> </sensors>"""
 TRAINING_SEEDS = range(1, 17)
 VALIDATION_SEEDS = range(50_001, 50_101)  # of rooms that decide which policy is kept
 FIRST_TEST_SEED = 100_001  # of rooms that training never uses
@@ -27,10 +30,11 @@ ROWS, COLUMNS = 8, 16  # of blocks in a picture
 CHANNELS = 2
 HIDDEN = 3
 PAIRS = 12
+GENERATIONS = 40  # of each start
 STEPS = 125  # of each candidate in each room, 25 s of simulated time
 SIGMA = 0.3
 RATE = 1.0
-START = 0.3  # standard deviation of the weights before training
+INITIAL_STD = 0.3  # standard deviation of the weights before training
 TIME_LIMIT_S = 60  # of a test
 
 
@@ -73,10 +77,11 @@ def features(pictures):
 class Policy:
     """The weights of many networks: weights of shape (networks, size()).
 
-    One filter of colours, the same for all blocks, turns red, green and blue into CHANNELS numbers. The rows of blocks are added with
-    a weight each. Hidden units see the columns and the last turn rate, and mirrored units with the same weights see
-    their mirror image. Speed is a weighted sum of both, turn rate a weighted difference: the mirrored picture gives the same speed, and the
-    opposite turn. By the last turn rate, a robot that sees no gold can continue to turn in one direction."""
+    One filter of colours, the same for all blocks, turns red, green and blue into CHANNELS numbers. The rows of blocks are
+    added with a weight each. Hidden units have the columns and the last turn rate as inputs, and mirrored units with the same
+    weights have their mirror image. Speed is a weighted sum of both, turn rate a weighted difference: a mirrored picture
+    results in the same speed and the opposite turn rate. By the last turn rate, a robot can continue to turn in one direction
+    while no gold is in the picture."""
 
     SHAPES = {"color": (3 + 1, CHANNELS), "row": (ROWS, CHANNELS), "hidden": (COLUMNS * CHANNELS + 2, HIDDEN),
               "speed": (HIDDEN, 1), "turn": (HIDDEN, 1), "speed_bias": (1, 1)}
@@ -96,11 +101,11 @@ class Policy:
         channels = np.tanh(blocks.reshape(len(blocks), -1, 3) @ self.color[:, :3] + self.color[:, 3:])
         columns = np.einsum("nmrck,nrk->nmck", channels.reshape(*blocks.shape[:-1], CHANNELS), self.row / 4)
 
-        def units(columns, turned):
+        def activations(columns, turned):
             inputs = np.concatenate([columns.reshape(*turned.shape[:2], -1), turned, np.ones_like(turned)], axis=-1)
             return np.tanh(inputs @ self.hidden)
 
-        units, mirrored = units(columns, turned), units(columns[:, :, ::-1], -turned)
+        units, mirrored = activations(columns, turned), activations(columns[:, :, ::-1], -turned)
         return np.tanh(np.concatenate([(units + mirrored) @ self.speed + self.speed_bias, (units - mirrored) @ self.turn], axis=-1))
 
 
@@ -127,33 +132,35 @@ def environments(rooms, networks, steps, threads):
                              reward={"win": 1, "heat": 0.01, "stall": -0.002}, max_steps=steps)
 
 
-def train(generations, minutes, threads, file):
+def train(starts, minutes, threads, file):
     """Stores the policy in the file whenever it is better than the stored one. Returns the last stored one."""
-    rng = np.random.default_rng(1)
     candidates = 2 * PAIRS
     test_steps = round(TIME_LIMIT_S / PERIOD_S)
     env = environments([room(seed) for seed in TRAINING_SEEDS], candidates, STEPS, threads)
     validation = environments([room(seed) for seed in VALIDATION_SEEDS], 1, test_steps, threads)
-    mean = rng.normal(0, START, Policy.size()).astype(np.float32)
-    momentum = np.zeros_like(mean)
-    best, best_share = mean, -1
+    best, best_share = None, -1
     end = time.monotonic() + 60 * minutes
-    for generation in range(1, generations + 1):
+    for start, generation in itertools.product(range(1, starts + 1), range(1, GENERATIONS + 1)):
+        if generation == 1:
+            rng = np.random.default_rng(start)
+            mean = rng.normal(0, INITIAL_STD, Policy.size()).astype(np.float32)
+            momentum = np.zeros_like(mean)
         half = rng.normal(0, 1, (PAIRS, mean.size)).astype(np.float32)
         changes = np.concatenate([half, -half])
         returns, found = attempt(env, mean + SIGMA * changes, rng.integers(2**31, size=len(TRAINING_SEEDS)), STEPS)
         ranks = returns.mean(axis=1).argsort().argsort() - (candidates - 1) / 2  # robust against outliers
         momentum = 0.8 * momentum + 0.2 * (ranks / np.linalg.norm(ranks)).astype(np.float32) @ changes
         mean = mean + RATE * SIGMA * momentum
-        is_last = generation == generations or time.monotonic() > end
-        if generation % 10 == 0 or is_last:
+        is_over = time.monotonic() > end
+        if generation % 10 == 0 or is_over:
             share = (attempt(validation, mean[None], VALIDATION_SEEDS, test_steps)[1] > 0).mean()
             if share > best_share:
                 best, best_share = mean, share
                 np.savez(file, weights=best)
-            print(f"generation {generation}: gold per robot and minute {found.mean() * 60 / (STEPS * PERIOD_S):.2f}, found in {share:.0%} of the "
-                  f"rooms for validation, at best {best_share:.0%}, {time.process_time():.0f} s of processor time", flush=True)
-        if is_last:
+            rate = found.mean() * 60 / (STEPS * PERIOD_S)
+            print(f"start {start}, generation {generation}: gold per robot and minute {rate:.2f}, found in {share:.0%} of the rooms "
+                  f"for validation, at best {best_share:.0%}, {time.process_time():.0f} s of processor time", flush=True)
+        if is_over:
             break
     env.close()
     validation.close()
@@ -175,7 +182,7 @@ class Learned(robosim.Controller):
 
 def evaluate(weights, rooms):
     seeds = range(FIRST_TEST_SEED, FIRST_TEST_SEED + rooms)
-    untrained = np.random.default_rng(1).normal(0, START, Policy.size()).astype(np.float32)
+    untrained = np.random.default_rng(1).normal(0, INITIAL_STD, Policy.size()).astype(np.float32)
     controllers = {"untrained": lambda: Learned(untrained), "gold_finder, with the heat only": "gold_finder", "learned": lambda: Learned(weights)}
     print(f"\n{rooms} other rooms, {TIME_LIMIT_S} s:\n\n| controller | found | median time to the gold [s] |\n|---|---|---|")
     for label, controller in controllers.items():
@@ -185,7 +192,7 @@ def evaluate(weights, rooms):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--generations", type=int, default=150, help="generations of training (default 150)")
+    parser.add_argument("--starts", type=int, default=4, help="number of trainings from other random weights (default 4)")
     parser.add_argument("--minutes", type=float, default=15, help="time limit of training (default 15)")
     parser.add_argument("--threads", type=int, default=2, help="threads of the engine (default 2)")
     parser.add_argument("--policy", default="gold_pixels_policy.npz", help="file for the learned policy")
@@ -195,7 +202,7 @@ def main():
     if arguments.evaluate:
         evaluate(np.load(arguments.evaluate)["weights"], arguments.rooms)
         return
-    weights = train(arguments.generations, arguments.minutes, arguments.threads, arguments.policy)
+    weights = train(arguments.starts, arguments.minutes, arguments.threads, arguments.policy)
     evaluate(weights, arguments.rooms)
 
 
