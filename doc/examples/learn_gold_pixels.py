@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Learns to drive to gold by what a camera sees, and compares the result with others in rooms that it has not seen.
 
-    learn_gold_pixels.py [--starts 4] [--minutes 15] [--threads 2] [--policy FILE.npz] [--rooms 200]
+    learn_gold_pixels.py [--starts 3] [--minutes 15] [--threads 2] [--policy FILE.npz] [--rooms 200]
 
 A robot with a ray-cast camera of 64 × 64 pixels stands somewhere in a room with boxes and a golden cylinder. The policy is a
 network of 133 weights from the picture and the last turn rate to speed and turn rate. It learns by the evolution strategy of
@@ -192,7 +192,7 @@ def evaluate(weights, rooms):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--starts", type=int, default=4, help="number of trainings from other random weights (default 4)")
+    parser.add_argument("--starts", type=int, default=3, help="number of trainings from other random weights (default 3)")
     parser.add_argument("--minutes", type=float, default=15, help="time limit of training (default 15)")
     parser.add_argument("--threads", type=int, default=2, help="threads of the engine (default 2)")
     parser.add_argument("--policy", default="gold_pixels_policy.npz", help="file for the learned policy")
