@@ -236,8 +236,8 @@ void checkRobotList(const std::string& file, const XmlElement& root, Checked& ch
 void checkRobotModel(const std::string& file, const XmlElement& element, Checked& checked) {
   const XmlElement root = withIncludedFiles(element, file);
   const RobotModel model = modelOf(root, file, {}, checked.errors);
-  checked.robots.push_back(model.name);
-  checked.contents = {{"robot type", model.name}, {"radius", fixed(model.radius_m, 3) + " m"}};
+  checked.robots.push_back(model.type->model);
+  checked.contents = {{"robot type", model.type->model}, {"radius", fixed(model.radius_m, 3) + " m"}};
   if (!model.sensor_infos) return;
   for (const auto& sensor : *model.sensor_infos) checked.contents.push_back({"  " + sensor.label, nameOf(sensor.kind)});
   if (!checked.errors.empty()) return;

@@ -127,7 +127,7 @@ EnkiFigures compare(std::size_t robots, std::uint64_t seed, double min_s) {
   LoadedWorld made = makeWorldToRun(infrared, robots, seed);
   const auto& model = *made.fleet.robots.front().model;
   const EnkiProcess enki;
-  enki.send(commandsFor(made.world, infrared, model.radius_m, model.limits.speed_max_mps));
+  enki.send(commandsFor(made.world, infrared, model.radius_m, model.type->limits.speed_max_mps));
   LocalRun run(std::move(made), {.environment = {.seed = seed, .period_s = 0.1, .threads = 1}, .controller = ""});
 
   constexpr int kWarmUpSteps = 20;

@@ -11,7 +11,8 @@ namespace robosim {
 namespace {
 
 RobotGroup makeGroup(const RobotModel& model, const std::vector<std::size_t>& slots, double period_s) {
-  RobotGroup group{&model, {}, {}, model.radius_m + groundSpeedMax(model.drive, model.limits) * period_s, {}};
+  RobotGroup group{
+      &model, {}, {}, model.radius_m + groundSpeedMax(model.type->drive, model.type->limits) * period_s, {}};
   for (const auto slot : slots) {
     const Sensor& sensor = *model.sensors[slot];
     group.reach_m = std::max(group.reach_m, reachOf(sensor));

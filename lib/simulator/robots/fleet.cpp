@@ -67,7 +67,7 @@ Body FleetRobot::body() const {
 FleetRobot placedRobot(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model) {
   FleetRobot robot;
   robot.info = {.name = placement.name,
-                .type = model->type_info,
+                .type = model->type,
                 .neighbour = placement.neighbour,
                 .radius_m = model->radius_m,
                 .height_m = model->body.height_m,

@@ -120,7 +120,7 @@ Body readBody(XmlReader& reader, BodyLook& look) {
 }
 
 void readLimits(XmlReader& reader, RobotModel& model) {
-  MotionLimits& limits = model.limits;
+  MotionLimits& limits = model.type.edit().limits;
   limits.speed_max_mps = reader.number("speed_max_mps", Bounds::positive(100));
   limits.turn_max_radps = kRadPerDeg * reader.number("turn_max_degps", Bounds::positive(3600));
   limits.accel_mps2 = reader.number("accel_mps2", Bounds::positive(1000));
@@ -135,7 +135,8 @@ void readLimits(XmlReader& reader, RobotModel& model) {
 void readDescribedDrive(const RobotDescription& description, RobotModel& model, ErrorList& errors) {
   if (!description.drive) return;
   XmlReader reader(*description.drive, description.file, errors);
-  model.drive = readDrive(reader, model.limits);
+  RobotTypeInfo& type = model.type.edit();
+  type.drive = readDrive(reader, type.limits);
 }
 
 /// Sensors of a model, with whether the file gives each a label.
@@ -157,7 +158,7 @@ void mount(std::vector<XmlReader> readers, double unit_m, Mounted& mounted) {
   std::size_t rays = 0;
   for (auto& reader : readers) {
     if (auto sensor =
-            readSensor(reader, {unit_m, model.radius_m, model.body.height_m, model.sensors, rays, model.drive})) {
+            readSensor(reader, {unit_m, model.radius_m, model.body.height_m, model.sensors, rays, model.type->drive})) {
       rays += sensor->rayCount();
       if (auto head = makeHeadOf(*sensor)) mounted.add(std::move(head), false);
       mounted.add(std::move(sensor), reader.has("label"));
@@ -212,7 +213,6 @@ void makeSharedInfo(Mounted& mounted) {
   makeLabelsUnique(infos, mounted.labelled);
   RobotModel& model = mounted.model;
   model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
-  model.type_info = RobotTypeInfo{model.name, model.limits, model.drive};
 }
 
 void setBody(const Body& body, RobotModel& model) {
@@ -240,8 +240,9 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
     root.error("is not a robot type; the first element of one is <robot>");
     return model;
   }
-  model.name = root.word("name");
-  if (!model.name.empty() && model.name != std::filesystem::path(type_file).stem()) {
+  RobotTypeInfo& info = model.type.edit();
+  info.model = root.word("name");
+  if (!info.model.empty() && info.model != std::filesystem::path(type_file).stem()) {
     root.errorAt("name", "must be the file's name without .xml; rename one of them");
   }
   model.help = root.word("help", "");
@@ -249,7 +250,7 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
   setBody(readBody(body, model.look), model);
   XmlReader limits = root.requiredChild("limits");
   readLimits(limits, model);
-  if (auto element = root.child("drive")) model.drive = readDrive(*element, model.limits);
+  if (auto element = root.child("drive")) info.drive = readDrive(*element, info.limits);
   readDescribedDrive(description, model, errors);
   if (auto element = root.child("arcos")) model.arcos = readArcosParameters(*element);
   if (description.body) setBody(*description.body, model);
@@ -269,13 +270,14 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
 
 RobotModel modelOf2005(const RobotDescription& description, ErrorList& errors) {
   RobotModel model;
-  model.name = "2005";
   setBody(*description.body, model);
-  model.limits = {.speed_max_mps = 2.5 * model.radius_m,
-                  .turn_max_radps = 1.74,
-                  .accel_mps2 = 2.5 * model.radius_m,
-                  .decel_mps2 = 2.5 * model.radius_m,
-                  .turn_accel_radps2 = 3.5};
+  RobotTypeInfo& info = model.type.edit();
+  info.model = "2005";
+  info.limits = {.speed_max_mps = 2.5 * model.radius_m,
+                 .turn_max_radps = 1.74,
+                 .accel_mps2 = 2.5 * model.radius_m,
+                 .decel_mps2 = 2.5 * model.radius_m,
+                 .turn_accel_radps2 = 3.5};
   readDescribedDrive(description, model, errors);
   Mounted mounted(model);
   mountDescribed(description, mounted, errors);

@@ -28,17 +28,15 @@ constexpr double kPushMax_n = 30;
 
 /// Model of a robot type: body, limits and mounted sensors. Robots of one type share one model.
 struct RobotModel {
-  std::string name;  ///< "pioneer3dx"; "2005" for robots described in the world file itself
+  /// Its name, such as "pioneer3dx", or "2005" for robots described in the world file itself; limits and drive.
+  SharedValue<RobotTypeInfo> type;
   std::string help;  ///< one sentence; may be empty
   Body body;         ///< shape, height and colour; its pose is the robot's
   BodyLook look = BodyLook::drum;
-  double radius_m = 0;  ///< of the disc used for move authorisation: Body::coveringRadius()
-  MotionLimits limits;
-  Drive drive;
+  double radius_m = 0;             ///< of the disc used for move authorisation: Body::coveringRadius()
   double push_max_n = kPushMax_n;  ///< force with which it pushes objects; >= 0, 0: none moves
   std::vector<std::shared_ptr<const Sensor>> sensors;
   std::shared_ptr<const std::vector<SensorInfo>> sensor_infos;  ///< of `sensors`, with unique labels
-  SharedValue<RobotTypeInfo> type_info;                         ///< of name, limits and drive
   std::optional<GripperOptions> gripper;                        ///< of the one among `sensors`
   /// Hash of the elements that describe the sensors, and thus of all their options; 0 for a model not read from a file.
   std::uint64_t sensors_digest = 0;

@@ -52,15 +52,15 @@ std::vector<XmlElement> elements(const std::string& text) { return parseXml("<a>
 
 TEST(RobotModel, PioneerHasTheRealRobotsSonarsAndLimits) {
   const RobotModel model = shipped("pioneer3dx");
-  EXPECT_EQ(model.name, "pioneer3dx");
+  EXPECT_EQ(model.type->model, "pioneer3dx");
   EXPECT_EQ(model.radius_m, 0.267);
   EXPECT_EQ(model.body.heights(), (HeightSpan{0, 0.237}));
-  EXPECT_EQ(model.limits.speed_max_mps, 1);
-  EXPECT_NEAR(model.limits.turn_max_radps, 1.74, 1e-3);
-  EXPECT_EQ(model.limits.accel_mps2, 0.3);
-  EXPECT_EQ(model.limits.decel_mps2, 0.3);
-  EXPECT_EQ(model.limits.emergency_decel_mps2, 2);
-  EXPECT_DOUBLE_EQ(model.limits.turn_accel_radps2, 100 * kRadPerDeg);
+  EXPECT_EQ(model.type->limits.speed_max_mps, 1);
+  EXPECT_NEAR(model.type->limits.turn_max_radps, 1.74, 1e-3);
+  EXPECT_EQ(model.type->limits.accel_mps2, 0.3);
+  EXPECT_EQ(model.type->limits.decel_mps2, 0.3);
+  EXPECT_EQ(model.type->limits.emergency_decel_mps2, 2);
+  EXPECT_DOUBLE_EQ(model.type->limits.turn_accel_radps2, 100 * kRadPerDeg);
   EXPECT_EQ(labelsOf(model), (Lines{"sonar", "laser", "heat", "bumper", "odometry", "compass"}));
 
   const SensorInfo& sonar = model.sensor_infos->at(0);
@@ -230,12 +230,12 @@ TEST(RobotModel, Model2005MovesLikeAPioneerOfItsSize) {
   const RobotModel model =
       modelOf2005({.body = &body, .sensors = &sensors, .file = "world.xml", .unit_m = 0.1}, errors);
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(model.name, "2005");
-  EXPECT_EQ(model.limits, (MotionLimits{.speed_max_mps = 0.75,
-                                        .turn_max_radps = 1.74,
-                                        .accel_mps2 = 0.75,
-                                        .decel_mps2 = 0.75,
-                                        .turn_accel_radps2 = 3.5}));
+  EXPECT_EQ(model.type->model, "2005");
+  EXPECT_EQ(model.type->limits, (MotionLimits{.speed_max_mps = 0.75,
+                                              .turn_max_radps = 1.74,
+                                              .accel_mps2 = 0.75,
+                                              .decel_mps2 = 0.75,
+                                              .turn_accel_radps2 = 3.5}));
   EXPECT_EQ(labelsOf(model), (Lines{"heat", "laser", "odometry"}));
   const SensorInfo& laser = model.sensor_infos->at(1);
   ASSERT_EQ(laser.beams.size(), 1u);

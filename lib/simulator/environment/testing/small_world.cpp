@@ -42,18 +42,17 @@ void addGold(World& world, double x_m, double y_m, double radius_m) {
 void addDisc(World& world, Fleet& fleet, const std::string& name, const mrpt::math::TPose2D& start, double radius_m,
              const MotionLimits& limits) {
   auto model = std::make_shared<RobotModel>();
-  model->name = "disc";
+  model->type = RobotTypeInfo{"disc", limits, {}};
   model->body.shape = Cylinder{radius_m};
   model->body.center_z_m = 0.15;
   model->body.height_m = 0.3;
   model->radius_m = radius_m;
-  model->limits = limits;
   model->sensors.push_back(makeOdometry({}));
   model->sensor_infos = std::make_shared<std::vector<SensorInfo>>(1, model->sensors[0]->info());
 
   FleetRobot robot;
   robot.info = {.name = name,
-                .type = RobotTypeInfo{model->name, limits, {}},
+                .type = model->type,
                 .neighbour = {},
                 .radius_m = radius_m,
                 .height_m = model->body.height_m,
