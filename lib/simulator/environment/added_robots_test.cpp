@@ -194,7 +194,7 @@ TEST(AddedRobots, OfAnotherTypeThanTheSavedOnesAreRefused) {
   AddingWorld changed;
   auto types = std::make_shared<KnownTypes>(*changed.fleet.known_types);
   auto faster = std::make_shared<RobotModel>(*types->models["disc"]);
-  faster->limits.speed_max_mps = 2;
+  faster->limits.speed_max_mps = faster->type_info.edit().limits.speed_max_mps = 2;
   types->models["disc"] = faster;
   changed.fleet.known_types = types;
   try {

@@ -50,10 +50,11 @@ void addDisc(World& world, Fleet& fleet, const std::string& name, const mrpt::ma
   model->limits = limits;
   model->sensors.push_back(makeOdometry({}));
   model->sensor_infos = std::make_shared<std::vector<SensorInfo>>(1, model->sensors[0]->info());
+  model->type_info = RobotTypeInfo{model->name, limits, {}};
 
   FleetRobot robot;
   robot.info = {.name = name,
-                .type = RobotTypeInfo{model->name, limits, {}},
+                .type = model->type_info,
                 .neighbour = {},
                 .radius_m = radius_m,
                 .height_m = model->body.height_m,
