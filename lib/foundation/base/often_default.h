@@ -14,8 +14,8 @@ class OftenDefault {
  public:
   OftenDefault() = default;
   template <typename Value>
-    requires(std::convertible_to<Value, T> && !std::same_as<std::remove_cvref_t<Value>, OftenDefault>)
-  OftenDefault(Value&& value) {  // NOLINT(bugprone-forwarding-reference-overload): not of this type
+  requires(std::convertible_to<Value, T> && !std::same_as<std::remove_cvref_t<Value>, OftenDefault>)
+      OftenDefault(Value&& value) {  // NOLINT(bugprone-forwarding-reference-overload): not of this type
     if (T own = std::forward<Value>(value); !(own == kDefault)) value_ = std::move(own);
   }
 

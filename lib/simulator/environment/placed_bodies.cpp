@@ -15,7 +15,8 @@ PlacedBodies::PlacedBodies(const Model& model, const std::vector<WorldObject>& o
   robot_bodies.reserve(model.fleet.robots.size());
   for (const auto& robot : model.fleet.robots) {
     robot_bodies.push_back(compact(robot));
-    if (!std::holds_alternative<Cylinder>(robot_bodies.back().shape)) beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
+    if (!std::holds_alternative<Cylinder>(robot_bodies.back().shape))
+      beyond_body_m_ = std::max(beyond_body_m_, robot.info.radius_m);
   }
   robot_bodies_ = RepeatedValues(robot_bodies);
   setObjects(objects);

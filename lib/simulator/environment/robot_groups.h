@@ -35,7 +35,7 @@ struct RobotGroups {
 
   std::vector<RobotGroup> groups;
   bool have_slots = false, have_host_slots = false;  ///< whether any group has such slots
-  std::vector<std::uint32_t> number_of;  ///< of the group, by robot
+  std::vector<std::uint32_t> number_of;              ///< of the group, by robot
 };
 
 /// Maximum range from a robot's centre in which a sensor uses neighbours [m]; 0 if it uses none.
