@@ -22,7 +22,8 @@ struct MeasuredRobot {
     addDisc(world, fleet, "robot", {}, 0.25, {1, 2, 1e6, 1e6, 1e6, 0, 1});
     FleetRobot& robot = fleet.robots.back();
     auto model = std::make_shared<RobotModel>(*robot.model);
-    model->drive = robot.info.type.edit().drive = drive;
+    model->type.edit().drive = drive;
+    robot.info.type = model->type;
     model->sensors = {makeOdometry({.noise = {true, 0, 0, 0}, .wheels = wheels})};
     robot.model = model;
     environment = std::make_unique<Environment>(std::move(world), std::move(fleet),

@@ -25,8 +25,10 @@ constexpr Drive kTrackedDrive{.kind = DriveKind::tracked, .track_factor = 2, .ic
 void giveDrive(Fleet& fleet, const Drive& drive) {
   FleetRobot& robot = fleet.robots.back();
   auto model = std::make_shared<RobotModel>(*robot.model);
-  model->drive = robot.info.type.edit().drive = drive;
-  if (drive.kind == DriveKind::omni) model->limits.lateral_max_mps = robot.info.type.edit().limits.lateral_max_mps = 1;
+  RobotTypeInfo& type = model->type.edit();
+  type.drive = drive;
+  if (drive.kind == DriveKind::omni) type.limits.lateral_max_mps = 1;
+  robot.info.type = model->type;
   robot.model = model;
 }
 

@@ -82,7 +82,7 @@ TEST(Fleet, KeepsTheWorldsOrderOfRobots) {
   EXPECT_EQ(b.info.name, "B");
   EXPECT_EQ(b.info.type->model, "scout");
   EXPECT_EQ(b.info.radius_m, 0.19);
-  EXPECT_EQ(b.info.type->limits, b.model->limits);
+  EXPECT_EQ(b.info.type, b.model->type);
   EXPECT_EQ(b.info.sensors, b.model->sensor_infos);
   EXPECT_NEAR(b.world_from_start.phi, 7 - 2 * M_PI, 1e-12);
   EXPECT_EQ(b.body().world_from_body, b.world_from_start);

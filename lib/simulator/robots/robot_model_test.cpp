@@ -122,7 +122,8 @@ TEST(RobotModel, SensorsOfTheShippedTypesDetectEachOther) {
     for (const auto& info : *observer->sensor_infos) {
       for (const auto& beam : info.beams) {
         for (const auto* other : {&pioneer, &scout}) {
-          EXPECT_TRUE(other->body.heights().contains(beam.robot_from_beam.z)) << observer->name << " " << info.label;
+          EXPECT_TRUE(other->body.heights().contains(beam.robot_from_beam.z))
+              << observer->type->model << " " << info.label;
         }
       }
     }
@@ -245,11 +246,11 @@ TEST(RobotModel, Model2005MovesLikeAPioneerOfItsSize) {
 }
 
 TEST(RobotModel, BrakesInAnEmergencyAsAlwaysUnlessItsTypeBrakesHarder) {
-  EXPECT_EQ(parsed(kBody + kLimits).limits.emergency_decel_mps2, 3);
+  EXPECT_EQ(parsed(kBody + kLimits).type->limits.emergency_decel_mps2, 3);
   const auto limits_with = [](const std::string& emergency) {
     return kLimits.substr(0, kLimits.size() - 2) + " emergency_decel_mps2='" + emergency + "'/>";
   };
-  EXPECT_EQ(parsed(kBody + limits_with("4")).limits.emergency_decel_mps2, 4);
+  EXPECT_EQ(parsed(kBody + limits_with("4")).type->limits.emergency_decel_mps2, 4);
   EXPECT_EQ(faultsOf("<robot name='r'>" + kBody + limits_with("2.5") + "</robot>"),
             Lines{"r.xml:1: <limits emergency_decel_mps2=\"2.5\">: must lie in [3, 1000] metres per second squared; "
                   "drop it for the default, 3"});
