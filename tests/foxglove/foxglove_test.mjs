@@ -457,7 +457,7 @@ test('a recording of another program is played: each measurement once', async ()
   // Without comments, a rawlog is one of another program.
   robosim('replay', inFolder('whole.rawlog'), '--robot', 'Pioneer1', '--sensor', 'GROUND_TRUTH', '--sensor', 'laser', '--output', inFolder('part.rawlog'));
   const client = connect(await viewing(inFolder('part.rawlog')).url());
-  await client.until(() => client.of('/clock').length > 0);
+  await client.until(() => client.channels.has('/robots') && client.times.length > 0);  // also after the end of the recording
   const player = new Player(client);
   player.control(false, 1, SECOND, 'pause');
   await player.answer('pause');
