@@ -313,7 +313,8 @@ struct Environment::Impl {
     return now;
   }
 
-  /// The sensors of all groups are those of the others, one after the other: messages may be delivered later.
+  /// Of `all`, those that may be computed anywhere come first, as in two calls. No sensor reads messages, which may
+  /// therefore be delivered between the two or afterwards.
   void sense(RobotRange range, SensorGroup which) {
     const bool has_slots = which != SensorGroup::in_host_process && robot_groups.have_slots;
     const bool has_host_slots = which != SensorGroup::anywhere && robot_groups.have_host_slots;

@@ -44,6 +44,7 @@ void PlacedBodies::listObjects(const std::vector<WorldObject>& objects) {
     if (!object.isStationary()) movable_.push_back(MovableBody::from(object));
   }
   const std::size_t robots = model_->fleet.robots.size();
+  // Otherwise interventions have changed some, and the run has a list of its own.
   const bool are_of_world = &objects == &model_->world.objects;
   scene_ = Scene(are_of_world ? model_->stationary
                               : indexStationary(stationarySolids(objects, model_->world.maps), model_->world.bounds),
