@@ -228,6 +228,7 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   const RobotsWelcome decoded = decode(wire);
   ASSERT_EQ(decoded.robots.size(), 2u);
   EXPECT_EQ(decoded.robots[1].info.name, "Pioneer2");
+  EXPECT_EQ(&*decoded.robots[1].info.type, &*decoded.robots[0].info.type) << "shared";
   EXPECT_EQ(decoded.robots[1].info.type->limits.turn_max_radps, 2);
   EXPECT_EQ(decoded.robots[1].info.type->limits.emergency_decel_mps2, 3);
   EXPECT_EQ(decoded.robots[1].info.type->limits.lateral_max_mps, 0.5);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "hardware/measurement_fields.h"
 #include "net/robot_wire.h"
@@ -258,7 +259,14 @@ RobotsWelcome decode(const v1::RobotsWelcome& in) {
     for (const auto& sensor : set.sensors()) sensors->push_back(decode(sensor));
     sets.push_back(std::move(sensors));
   }
-  for (const auto& robot : in.robots()) welcome.robots.push_back(decode(robot, sets));
+  for (const auto& robot : in.robots()) {
+    RobotsWelcome::Robot decoded = decode(robot, sets);
+    // Robots of a type share what they have in common, as in the environment's process.
+    if (!welcome.robots.empty() && welcome.robots.back().info.type == decoded.info.type) {
+      decoded.info.type = welcome.robots.back().info.type;
+    }
+    welcome.robots.push_back(std::move(decoded));
+  }
   welcome.all_robots.assign(in.all_robots().begin(), in.all_robots().end());
   welcome.takes_broadcasts = in.takes_broadcasts();
   return welcome;

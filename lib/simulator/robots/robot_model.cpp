@@ -203,16 +203,14 @@ void mountDescribed(const RobotDescription& description, Mounted& mounted, Error
   if (!has_odometry) mounted.add(makeOdometry({}), false);
 }
 
-/// Makes what the robots' RobotInfo share, when all else is known.
-void makeSharedInfo(Mounted& mounted) {
+void describeSensors(Mounted& mounted) {
   std::vector<SensorInfo> infos;
   for (const auto& sensor : mounted.model.sensors) {
     infos.push_back(sensor->info());
     if (const GripperOptions* gripper = gripperOptionsOf(*sensor)) mounted.model.gripper = *gripper;
   }
   makeLabelsUnique(infos, mounted.labelled);
-  RobotModel& model = mounted.model;
-  model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
+  mounted.model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
 }
 
 void setBody(const Body& body, RobotModel& model) {
@@ -264,7 +262,7 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
     model.sensors_digest = digestOf(sensorsOf(type));
   }
   root.finish();
-  makeSharedInfo(mounted);
+  describeSensors(mounted);
   return model;
 }
 
@@ -281,7 +279,7 @@ RobotModel modelOf2005(const RobotDescription& description, ErrorList& errors) {
   readDescribedDrive(description, model, errors);
   Mounted mounted(model);
   mountDescribed(description, mounted, errors);
-  makeSharedInfo(mounted);
+  describeSensors(mounted);
   return model;
 }
 
