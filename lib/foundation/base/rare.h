@@ -20,6 +20,7 @@ class Rare {
   Rare& operator=(Rare&&) noexcept = default;
   ~Rare() = default;
 
+  // NOLINTBEGIN(readability-identifier-naming): named as those of std::optional
   bool has_value() const { return value_ != nullptr; }
   explicit operator bool() const { return has_value(); }
   /// @pre there is a value
@@ -30,6 +31,7 @@ class Rare {
   const T* operator->() const { return value_.get(); }
   ///@}
   T value_or(T other) const { return value_ ? *value_ : std::move(other); }
+  // NOLINTEND(readability-identifier-naming)
   operator std::optional<T>() const { return value_ ? std::optional<T>(*value_) : std::nullopt; }
 
   T& emplace() { return *(value_ = std::make_unique<T>()); }
